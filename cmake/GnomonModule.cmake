@@ -1,0 +1,32 @@
+# gnomon_add_module(<name> SOURCES <...> HEADERS <...> DEPENDS <...> [PRIVATE_DEPENDS <...>])
+# Defines library gnomon_<name>, known to others as gnomon::<name>. It publishes only its own
+# include folder, so that an include the link graph forbids does not compile.
+function(gnomon_add_module name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS;DEPENDS;PRIVATE_DEPENDS")
+  add_library(gnomon_${name} STATIC ${arg_SOURCES})
+  add_library(gnomon::${name} ALIAS gnomon_${name})
+  target_sources(gnomon_${name} PUBLIC
+    FILE_SET HEADERS BASE_DIRS include FILES ${arg_HEADERS})
+  target_include_directories(gnomon_${name} PRIVATE src)
+  target_link_libraries(gnomon_${name} PUBLIC ${arg_DEPENDS}
+    PRIVATE ${arg_PRIVATE_DEPENDS} gnomon_options)
+  set_target_properties(gnomon_${name} PROPERTIES
+    VERIFY_INTERFACE_HEADER_SETS ON POSITION_INDEPENDENT_CODE ON)
+endfunction()
+
+# gnomon_add_test(<name> LABELS <...> SOURCES <...> DEPENDS <...>)
+# A GoogleTest program; every TEST becomes a ctest of its own. Its files find test data under
+# GNOMON_SOURCE_DIR.
+include(GoogleTest)
+function(gnomon_add_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "LABELS;SOURCES;DEPENDS")
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 120)
+  endif()
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE ${arg_DEPENDS} gnomon_options GTest::gtest GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE GNOMON_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    GNOMON_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  gtest_discover_tests(${name} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
+endfunction()

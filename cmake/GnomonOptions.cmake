@@ -1,0 +1,44 @@
+# How our own targets are compiled. Presets choose; nothing here touches other people's code.
+
+set(GNOMON_SANITIZE "" CACHE STRING "Sanitizers for -fsanitize=, e.g. address,undefined or thread")
+option(GNOMON_CORE_ONLY "Build only base, math, field, scene and net (what the thread sanitizer looks at)" OFF)
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+
+find_program(GNOMON_CCACHE ccache)
+if(GNOMON_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${GNOMON_CCACHE})
+endif()
+
+add_library(gnomon_options INTERFACE)
+target_compile_features(gnomon_options INTERFACE cxx_std_20)
+target_compile_options(gnomon_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
+
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  # Asio 1.18 does not detect clang 14's coroutines.
+  target_compile_definitions(gnomon_options INTERFACE
+    BOOST_ASIO_HAS_CO_AWAIT BOOST_ASIO_HAS_STD_COROUTINE)
+endif()
+
+if(GNOMON_SANITIZE)
+  target_compile_options(gnomon_options INTERFACE -fsanitize=${GNOMON_SANITIZE}
+    -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(gnomon_options INTERFACE -fsanitize=${GNOMON_SANITIZE})
+  if(GNOMON_SANITIZE MATCHES "thread")
+    target_compile_definitions(gnomon_options INTERFACE BOOST_ASIO_DISABLE_FENCED_BLOCK)
+  endif()
+  if(GNOMON_SANITIZE MATCHES "address")
+    target_compile_definitions(gnomon_options INTERFACE BOOST_ASIO_DISABLE_AWAITABLE_FRAME_RECYCLING)
+  endif()
+  if(GNOMON_SANITIZE MATCHES "undefined" AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    target_compile_options(gnomon_options INTERFACE -fno-sanitize=function)
+  endif()
+else()
+  find_program(GNOMON_MOLD mold)
+  if(GNOMON_MOLD)
+    target_link_options(gnomon_options INTERFACE -fuse-ld=mold)
+  endif()
+endif()

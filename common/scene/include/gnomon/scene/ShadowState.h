@@ -1,0 +1,33 @@
+#pragma once
+
+#include <gnomon/scene/Node.h>
+
+namespace gnomon::scene {
+
+/// One light's shadow maps for one fit group, the same on every server: the only thing a server
+/// needs to know of a fit. Written by the session alone.
+class ShadowState final : public Container<ShadowState> {
+public:
+    static constexpr std::string_view typeName = "ShadowState";
+    Field<Ref<Node>> light;         ///< the node whose core is the light
+    /// The fit group: the screen all its tiles and eyes share, or the undecorated camera.
+    Field<Ref<field::FieldContainer>> group;
+    Field<std::string> filter{"hard"};
+    Field<std::int32_t> mapSize{512};   ///< texels a side, of each map
+    Field<std::int32_t> pageSize{512};  ///< texels a side; divides mapSize
+    /// One map per entry (cascades have several): map clip space from world. Depth reversed, 1 at
+    /// the light's near side; w > 0 for everything that can be looked up.
+    MultiField<math::dmat4> clipFromWorld;
+    Field<bool> degenerate;  ///< the fit fell back to a plain one
+    static constexpr auto fields() {
+        return std::tuple{entry("light", &ShadowState::light),
+                          entry("group", &ShadowState::group),
+                          entry("filter", &ShadowState::filter),
+                          entry("mapSize", &ShadowState::mapSize),
+                          entry("pageSize", &ShadowState::pageSize),
+                          entry("clipFromWorld", &ShadowState::clipFromWorld),
+                          entry("degenerate", &ShadowState::degenerate)};
+    }
+};
+
+}  // namespace gnomon::scene
