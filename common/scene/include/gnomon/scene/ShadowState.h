@@ -18,6 +18,8 @@ public:
     /// One map per entry (cascades have several): map clip space from world. Depth reversed, 1 at
     /// the light's near side; w > 0 for everything that can be looked up.
     MultiField<math::dmat4> clipFromWorld;
+    /// What the fit group draws relative to, so that a map has the same bits wherever it is drawn.
+    Field<math::dvec3> origin;
     Field<bool> degenerate;  ///< the fit fell back to a plain one
     static constexpr auto fields() {
         return std::tuple{entry("light", &ShadowState::light),
@@ -26,6 +28,7 @@ public:
                           entry("mapSize", &ShadowState::mapSize),
                           entry("pageSize", &ShadowState::pageSize),
                           entry("clipFromWorld", &ShadowState::clipFromWorld),
+                          entry("origin", &ShadowState::origin),
                           entry("degenerate", &ShadowState::degenerate)};
     }
 };

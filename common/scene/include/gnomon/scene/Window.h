@@ -51,6 +51,9 @@ public:
     Field<Ref<Node>> root;
     Field<Ref<Background>> background;
     MultiField<Ref<Foreground>> foregrounds;
+    /// Light from everywhere: radiance (linear RGB) of a white surface facing up and down.
+    Field<math::vec3> ambientSky{math::vec3{0.20F, 0.22F, 0.26F}};
+    Field<math::vec3> ambientGround{math::vec3{0.10F, 0.09F, 0.08F}};
 
 protected:
     template <class Self>
@@ -61,7 +64,10 @@ protected:
             entry("root", static_cast<Field<Ref<Node>> Self::*>(&Viewport::root)),
             entry("background", static_cast<Field<Ref<Background>> Self::*>(&Viewport::background)),
             entry("foregrounds",
-                  static_cast<MultiField<Ref<Foreground>> Self::*>(&Viewport::foregrounds))};
+                  static_cast<MultiField<Ref<Foreground>> Self::*>(&Viewport::foregrounds)),
+            entry("ambientSky", static_cast<Field<math::vec3> Self::*>(&Viewport::ambientSky)),
+            entry("ambientGround",
+                  static_cast<Field<math::vec3> Self::*>(&Viewport::ambientGround))};
     }
 };
 

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <gnomon/field/Aspect.h>
+#include <gnomon/gl/Context.h>
+#include <gnomon/scene/Window.h>
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gnomon::render {
+
+/// What drawing a window took. Counts do not depend on the machine's mood.
+struct FrameStatistics {
+    std::uint64_t triangles = 0;        ///< colour passes
+    std::uint64_t chunks = 0;
+    std::uint64_t chunksCulled = 0;
+    std::uint64_t shadowTriangles = 0;
+    std::uint64_t pagesDrawn = 0;
+    std::uint64_t pagesKept = 0;
+    std::uint64_t pagesUnseen = 0;
+    std::uint64_t mapTexels = 0;        ///< drawn this frame
+    std::uint64_t mapBytes = 0;         ///< held
+    int lights = 0;
+    int lightsLeftOut = 0;              ///< more than a view can have
+    int degenerate = 0;                 ///< fits that fell back to the plain one
+    /// Only with measurePasses: each ends with glFinish.
+    double shadowMs = 0.0;
+    double colorMs = 0.0;
+    double overlayMs = 0.0;
+};
+
+/// Rows from the top, rgb8 (sRGB) or one channel.
+struct Pixels {
+    int width = 0;
+    int height = 0;
+    int channels = 3;
+    std::vector<std::uint8_t> bytes = {};
+};
+
+/// Draws the windows of a replicated scene with one context. Owns everything it makes there and must
+/// die before the context, with it current. Nothing is allocated, compiled or looked up by name in
+/// a frame that does not need it.
+class Renderer {
+public:
+    /// @param report  told once of each thing that cannot be drawn as asked.
+    Renderer(gl::Context& context, const field::Aspect& scene,
+             std::function<void(std::string)> report = {});
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    /// Takes in what a change list did; before the next draw().
+    void update(const field::Applied& applied);
+    /// Forgets every shadow page, so that the next frame draws them anew.
+    void forgetShadows();
+    /// glFinish after each pass, for pass times.
+    void measurePasses(bool on) noexcept;
+    /// True when the picture may differ from the last one though no container changed (a shader
+    /// that reads the time).
+    bool animates() const noexcept;
+
+    /// Draws all viewports of a window into its own framebuffer.
+    /// Errors: a viewport without a usable camera (Errc::edit), no memory for it (Errc::context).
+    Result<FrameStatistics> draw(const scene::Window& window, double time);
+    /// Waits until everything drawn is done.
+    void finish() const;
+
+    /// The window's picture as of the last draw(): an sRGB 2D texture, bottom row first.
+    unsigned colorTexture(const scene::Window& window) const;
+    Pixels read(const scene::Window& window);
+    /// One light's shadow factor as seen by a viewport: 255 lit, 0 shadowed or facing away, 128 no
+    /// surface. @param light  index among the lights of the scene, in tree order.
+    /// Errors: no such light (Errc::config).
+    Result<Pixels> shadowFactor(const scene::Window& window, std::size_t viewport, int light);
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace gnomon::render

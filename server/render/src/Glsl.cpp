@@ -1,0 +1,415 @@
+#include "Glsl.h"
+
+namespace gnomon::render::glsl {
+
+std::string_view version() noexcept { return "#version 450 core\n"; }
+
+std::string_view meshVertex() noexcept {
+    return R"glsl(
+layout(location = 0) in vec3 position;
+#ifdef HAS_NORMALS
+layout(location = 1) in vec3 normal;
+#endif
+#ifdef HAS_TEXCOORDS
+layout(location = 2) in vec2 texCoord;
+#endif
+#ifdef HAS_TANGENTS
+layout(location = 3) in vec4 tangent;
+#endif
+#ifdef HAS_COLORS
+layout(location = 4) in vec4 color;
+#endif
+layout(location = 5) in vec4 rowX;  // originFromLocal
+layout(location = 6) in vec4 rowY;
+layout(location = 7) in vec4 rowZ;
+layout(location = 8) in uvec4 info;
+
+layout(location = 0) uniform mat4 clipFromOrigin;
+
+#ifndef DEPTH_ONLY
+out vec3 vPosition;
+#ifdef HAS_NORMALS
+out vec3 vNormal;
+#endif
+#ifdef HAS_TANGENTS
+out vec4 vTangent;
+#endif
+#ifdef SCOPED_LIGHTS
+flat out uvec2 vLights;
+#endif
+#endif
+#ifdef HAS_TEXCOORDS
+out vec2 vTexCoord;
+#endif
+#ifdef HAS_COLORS
+out vec4 vColor;
+#endif
+invariant gl_Position;
+
+void main() {
+    vec4 p = vec4(position, 1.0);
+    vec3 world = vec3(dot(rowX, p), dot(rowY, p), dot(rowZ, p));
+    gl_Position = clipFromOrigin * vec4(world, 1.0);
+#ifdef HAS_TEXCOORDS
+    vTexCoord = texCoord;
+#endif
+#ifdef HAS_COLORS
+    vColor = color;
+#endif
+#ifndef DEPTH_ONLY
+    vPosition = world;
+#ifdef HAS_NORMALS
+    // Normals go by the cofactors: right for any scale, mirrored and singular ones too.
+    vec3 a = rowX.xyz, b = rowY.xyz, c = rowZ.xyz;
+    vec3 bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
+    float flip = dot(a, bc) < 0.0 ? -1.0 : 1.0;
+    vNormal = flip * vec3(dot(bc, normal), dot(ca, normal), dot(ab, normal));
+#endif
+#ifdef HAS_TANGENTS
+    vTangent = vec4(dot(rowX.xyz, tangent.xyz), dot(rowY.xyz, tangent.xyz),
+                    dot(rowZ.xyz, tangent.xyz), tangent.w);
+#endif
+#ifdef SCOPED_LIGHTS
+    vLights = info.xy;
+#endif
+#endif
+}
+)glsl";
+}
+
+std::string_view meshCommon() noexcept {
+    return R"glsl(
+struct Light {
+    vec4 position;     // xyz relative to the origin, w: range (0: none)
+    vec4 direction;    // xyz unit, from the light; w: 0 directional, 1 point, 2 spot
+    vec4 color;        // rgb times intensity
+    vec4 attenuation;  // constant, linear, quadratic
+    vec4 cone;         // x, y: cosine = x * c + y; z: bit of the light
+    vec4 ambient;
+    uvec4 maps;        // first map, number of maps, index of the light
+};
+layout(std140, binding = 1) uniform LightBlock {
+    Light lights[64];
+};
+layout(std140, binding = 2) uniform ViewBlock {
+    vec4 eye;            // relative to the origin; w: number of lights
+    vec4 ambientSky;
+    vec4 ambientGround;
+    vec4 shadowColor;
+};
+layout(std140, binding = 3) uniform MaterialBlock {
+    vec4 diffuse;
+    vec4 specular;   // w: shininess
+    vec4 emissive;   // w: alpha cutoff, < 0 where not masked
+    vec4 texRowS;    // w: normal scale
+    vec4 texRowT;
+} material;
+
+#ifdef DIFFUSE_MAP
+layout(binding = 0) uniform sampler2D diffuseMap;
+#endif
+#ifdef NORMAL_MAP
+layout(binding = 1) uniform sampler2D normalMap;
+#endif
+#ifdef EMISSIVE_MAP
+layout(binding = 2) uniform sampler2D emissiveMap;
+#endif
+
+#ifdef HAS_TEXCOORDS
+in vec2 vTexCoord;
+vec2 textureCoordinate() {
+    vec3 t = vec3(vTexCoord, 1.0);
+    return vec2(dot(material.texRowS.xyz, t), dot(material.texRowT.xyz, t));
+}
+#endif
+#ifdef HAS_COLORS
+in vec4 vColor;
+#endif
+
+vec4 surfaceColor() {
+    vec4 color = material.diffuse;
+#ifdef DIFFUSE_MAP
+    color *= texture(diffuseMap, textureCoordinate());
+#endif
+#ifdef HAS_COLORS
+    color *= vColor;
+#endif
+#ifdef ALPHA_MASK
+    if (color.a < material.emissive.w) discard;
+#endif
+    return color;
+}
+
+// Direction to a light and what reaches `position` of it without shadows; zero where none does.
+vec3 lightReaching(int i, vec3 position, out vec3 toLight) {
+    if (lights[i].direction.w == 0.0) {
+        toLight = -lights[i].direction.xyz;
+        return lights[i].color.rgb;
+    }
+    vec3 way = lights[i].position.xyz - position;
+    float square = max(dot(way, way), 1e-12);
+    float distance = sqrt(square);
+    toLight = way / distance;
+    vec4 k = lights[i].attenuation;
+    float weight = 1.0 / max(k.x + k.y * distance + k.z * square, 1e-6);
+    float range = lights[i].position.w;
+    if (range > 0.0) {
+        // Reaches zero at the range. Source: Brian Karis. Real Shading in Unreal Engine 4. 2013.
+        float q = square / (range * range);
+        float window = clamp(1.0 - q * q, 0.0, 1.0);
+        weight *= window * window;
+    }
+    if (lights[i].direction.w == 2.0) {
+        float c = dot(-toLight, lights[i].direction.xyz);
+        float t = clamp(lights[i].cone.x * c + lights[i].cone.y, 0.0, 1.0);
+        weight *= t * t;
+    }
+    return lights[i].color.rgb * weight;
+}
+)glsl";
+}
+
+std::string_view meshColor() noexcept {
+    return R"glsl(
+in vec3 vPosition;
+#ifdef HAS_NORMALS
+in vec3 vNormal;
+#endif
+#ifdef HAS_TANGENTS
+in vec4 vTangent;
+#endif
+#ifdef SCOPED_LIGHTS
+flat in uvec2 vLights;
+#endif
+layout(location = 0) out vec4 outColor;
+
+#ifdef NORMAL_MAP
+vec3 mappedNormal(vec3 normal, vec2 uv) {
+    vec3 m = texture(normalMap, uv).xyz * 2.0 - 1.0;
+    m.xy *= material.texRowS.w;
+#ifdef HAS_TANGENTS
+    vec3 t = vTangent.xyz;
+    float hand = vTangent.w;
+#else
+    // Frame from derivatives. Source: Christian Schueler. Normal Mapping Without Precomputed
+    // Tangents. ShaderX5, 2006.
+    vec3 px = dFdx(vPosition), py = dFdy(vPosition);
+    vec2 ux = dFdx(uv), uy = dFdy(uv);
+    vec3 t = px * uy.y - py * ux.y;
+    // A glTF image has v downward: the bitangent is the normal crossed with the tangent.
+    float hand = (ux.x * uy.y - uy.x * ux.y) < 0.0 ? 1.0 : -1.0;
+    t *= -hand;
+#endif
+    t -= normal * dot(normal, t);
+    float length2 = dot(t, t);
+    if (!(length2 > 1e-20)) return normal;
+    t *= inversesqrt(length2);
+    return normalize(t * m.x + cross(normal, t) * (hand * m.y) + normal * m.z);
+}
+#endif
+
+void main() {
+    vec4 color = surfaceColor();
+#ifdef UNLIT
+    outColor = vec4(color.rgb, color.a);
+#else
+    // The face's own normal, on the side that is seen: for what a shadow map can know.
+    vec3 toEye = eye.xyz - vPosition;
+    vec3 face = cross(dFdx(vPosition), dFdy(vPosition));
+    face = dot(face, toEye) < 0.0 ? -face : face;
+    face *= inversesqrt(max(dot(face, face), 1e-30));
+    toEye *= inversesqrt(max(dot(toEye, toEye), 1e-30));
+#ifdef HAS_NORMALS
+    vec3 normal = vNormal * inversesqrt(max(dot(vNormal, vNormal), 1e-30));
+    normal = dot(normal, face) < 0.0 ? -normal : normal;
+#else
+    vec3 normal = face;
+#endif
+#ifdef NORMAL_MAP
+    normal = mappedNormal(normal, textureCoordinate());
+#endif
+    vec3 diffuse = color.rgb;
+    vec3 specular = material.specular.rgb;
+    float shininess = material.specular.w;
+    vec3 radiance = mix(ambientGround.rgb, ambientSky.rgb, normal.y * 0.5 + 0.5) * diffuse;
+    int count = int(eye.w);
+    for (int i = 0; i < count; ++i) {
+#ifdef SCOPED_LIGHTS
+        uint bit = lights[i].maps.z;
+        if (((bit < 32u ? vLights.x : vLights.y) & (1u << (bit & 31u))) == 0u) continue;
+#endif
+        vec3 toLight;
+        vec3 reaching = lightReaching(i, vPosition, toLight);
+        radiance += lights[i].ambient.rgb * diffuse;
+        float cosine = dot(normal, toLight);
+        if (cosine <= 0.0 || reaching == vec3(0.0)) continue;
+#ifdef SHADOWS
+        if (lights[i].maps.y > 0u) {
+            float faceCosine = dot(face, toLight);
+            float lit = faceCosine > 0.0
+                            ? shadowFactor(lights[i].maps.xy, vPosition, face, faceCosine)
+                            : 0.0;
+            reaching *= mix(vec3(1.0), mix(shadowColor.rgb, vec3(1.0), lit), shadowColor.a);
+            if (reaching == vec3(0.0)) continue;
+        }
+#endif
+        // Energy-conserving Blinn-Phong. Source: Fabian Giesen. Phong Normalization Factor
+        // Derivation. 2009.
+        vec3 halfway = toLight + toEye;
+        float h = max(dot(normal, halfway), 0.0) * inversesqrt(max(dot(halfway, halfway), 1e-12));
+        float gloss = (shininess + 8.0) * 0.125 * exp2(shininess * log2(max(h, 1e-6)));
+        radiance += reaching * cosine * (diffuse + specular * gloss);
+    }
+    vec3 glow = material.emissive.rgb;
+#ifdef EMISSIVE_MAP
+    glow *= texture(emissiveMap, textureCoordinate()).rgb;
+#endif
+    outColor = vec4(radiance + glow, color.a);
+#endif
+}
+)glsl";
+}
+
+std::string_view meshDepth() noexcept {
+    return R"glsl(
+void main() { surfaceColor(); }
+)glsl";
+}
+
+std::string_view meshFactor() noexcept {
+    return R"glsl(
+in vec3 vPosition;
+layout(location = 0) out float outFactor;
+layout(location = 1) uniform int lightIndex;
+
+void main() {
+    surfaceColor();
+    vec3 toEye = eye.xyz - vPosition;
+    vec3 face = cross(dFdx(vPosition), dFdy(vPosition));
+    face = dot(face, toEye) < 0.0 ? -face : face;
+    face *= inversesqrt(max(dot(face, face), 1e-30));
+    vec3 toLight;
+    lightReaching(lightIndex, vPosition, toLight);
+    float cosine = dot(face, toLight);
+    float lit = cosine > 0.0 ? 1.0 : 0.0;
+#ifdef SHADOWS
+    if (lit > 0.0 && lights[lightIndex].maps.y > 0u)
+        lit = shadowFactor(lights[lightIndex].maps.xy, vPosition, face, cosine);
+#endif
+    // 128 means that there is no surface.
+    float byteValue = floor(lit * 255.0 + 0.5);
+    outFactor = (byteValue == 128.0 ? 127.0 : byteValue) / 255.0;
+}
+)glsl";
+}
+
+std::string_view coverVertex() noexcept {
+    return R"glsl(
+out vec2 vShare;
+void main() {
+    vec2 corner = vec2(gl_VertexID == 1 ? 2.0 : 0.0, gl_VertexID == 2 ? 2.0 : 0.0);
+    vShare = corner;
+    gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
+}
+)glsl";
+}
+
+std::string_view background() noexcept {
+    return R"glsl(
+in vec2 vShare;
+layout(location = 0) uniform vec2 part;      // bottom and height of this tile in the whole picture
+layout(location = 1) uniform int stopCount;
+layout(location = 2) uniform vec4 stops[16]; // rgb, position; ascending
+layout(location = 0) out vec4 outColor;
+void main() {
+    float at = part.x + part.y * vShare.y;
+    vec3 color = stops[0].rgb;
+    for (int i = 1; i < stopCount; ++i) {
+        float width = max(stops[i].w - stops[i - 1].w, 1e-6);
+        color = mix(color, stops[i].rgb, clamp((at - stops[i - 1].w) / width, 0.0, 1.0));
+    }
+    outColor = vec4(color, 1.0);
+}
+)glsl";
+}
+
+std::string_view foregroundVertex() noexcept {
+    return R"glsl(
+layout(location = 0) uniform vec4 rect;  // clip space: left, bottom, width, height
+out vec2 vTexCoord;
+void main() {
+    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+    vTexCoord = vec2(corner.x, 1.0 - corner.y);
+    gl_Position = vec4(rect.xy + corner * rect.zw, 0.0, 1.0);
+}
+)glsl";
+}
+
+std::string_view foreground() noexcept {
+    return R"glsl(
+in vec2 vTexCoord;
+layout(binding = 0) uniform sampler2D image;
+layout(location = 0) out vec4 outColor;
+void main() { outColor = texture(image, vTexCoord); }
+)glsl";
+}
+
+std::string_view combine() noexcept {
+    // What the foreign shader drew is taken as its own sum over all lights: the share of it that each
+    // light would have in ours is darkened by that light's factor, and what is ambient is left.
+    return R"glsl(
+in vec2 vShare;
+layout(binding = 3) uniform sampler2D depthImage;
+layout(location = 0) uniform mat4 originFromClip;
+layout(location = 4) uniform ivec4 viewportPixels;
+layout(location = 0) out vec4 outColor;
+
+vec3 positionAt(ivec2 pixel, float depth) {
+    vec2 share = (vec2(pixel - viewportPixels.xy) + 0.5) / vec2(viewportPixels.zw);
+    vec4 p = originFromClip * vec4(share * 2.0 - 1.0, depth, 1.0);
+    return p.xyz / p.w;
+}
+
+// Step to the neighbour, on the side whose depth is nearer to ours: not across an edge.
+vec3 stepAlong(ivec2 pixel, ivec2 by, vec3 here, float depth) {
+    ivec2 low = viewportPixels.xy, high = low + viewportPixels.zw - 1;
+    float after = texelFetch(depthImage, clamp(pixel + by, low, high), 0).r;
+    float before = texelFetch(depthImage, clamp(pixel - by, low, high), 0).r;
+    bool useAfter = abs(after - depth) <= abs(before - depth);
+    return useAfter ? positionAt(pixel + by, after) - here : here - positionAt(pixel - by, before);
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float depth = texelFetch(depthImage, pixel, 0).r;
+    vec3 position = positionAt(pixel, depth);
+    vec3 normal = cross(stepAlong(pixel, ivec2(1, 0), position, depth),
+                        stepAlong(pixel, ivec2(0, 1), position, depth));
+    normal = dot(normal, eye.xyz - position) < 0.0 ? -normal : normal;
+    normal *= inversesqrt(max(dot(normal, normal), 1e-30));
+    vec3 all = mix(ambientGround.rgb, ambientSky.rgb, normal.y * 0.5 + 0.5);
+    vec3 kept = all;
+    int count = int(eye.w);
+    for (int i = 0; i < count; ++i) {
+        vec3 toLight;
+        vec3 reaching = lightReaching(i, position, toLight);
+        all += lights[i].ambient.rgb;
+        kept += lights[i].ambient.rgb;
+        float cosine = dot(normal, toLight);
+        // A foreign shader may light what faces away; such a light's share is left alone.
+        if (cosine <= 0.0) continue;
+        reaching *= cosine;
+        all += reaching;
+        float lit = 1.0;
+#ifdef SHADOWS
+        if (lights[i].maps.y > 0u)
+            lit = shadowFactor(lights[i].maps.xy, position, normal, cosine);
+#endif
+        kept += reaching * mix(vec3(1.0), mix(shadowColor.rgb, vec3(1.0), lit), shadowColor.a);
+    }
+    outColor = vec4(kept / max(all, vec3(1e-6)), 1.0);
+}
+)glsl";
+}
+
+}  // namespace gnomon::render::glsl

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string_view>
+
+/// Shader text of the built-in materials. Variants are made with #define lines before it.
+namespace gnomon::render::glsl {
+
+std::string_view version() noexcept;
+/// HAS_NORMALS HAS_TEXCOORDS HAS_TANGENTS HAS_COLORS: what the mesh has. DEPTH_ONLY.
+std::string_view meshVertex() noexcept;
+/// Light blocks and the surface's material.
+std::string_view meshCommon() noexcept;
+/// Colour pass; after the shadow lookup's text.
+std::string_view meshColor() noexcept;
+/// Depth of masked casters.
+std::string_view meshDepth() noexcept;
+/// One light's shadow factor; after the shadow lookup's text.
+std::string_view meshFactor() noexcept;
+/// A triangle that covers the viewport.
+std::string_view coverVertex() noexcept;
+std::string_view background() noexcept;
+std::string_view foregroundVertex() noexcept;
+std::string_view foreground() noexcept;
+/// Darkens what a material with shaders of its own drew; after the shadow lookup's text.
+std::string_view combine() noexcept;
+
+}  // namespace gnomon::render::glsl

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <gnomon/gl/Handle.h>
+#include <gnomon/math/View.h>
+#include <gnomon/scene/FlatScene.h>
+#include <gnomon/scene/Window.h>
+#include <gnomon/shadow/ShadowMaps.h>
+
+namespace gnomon::render {
+
+/// The lights and the view, as the surface shaders read them.
+class Lights {
+public:
+    static constexpr GLuint lightBinding = 1;
+    static constexpr GLuint viewBinding = 2;
+
+    explicit Lights(const gl::Api& gl);
+
+    struct Uploaded {
+        int count = 0;
+        bool scoped = false;  ///< some surface is not lit by all of them
+        bool shadows = false; ///< some light has a map
+    };
+    /// Writes what reaches the view; binds both blocks.
+    /// @param only  -1: all that are on; else just this one, at index 0, on or off.
+    Uploaded upload(const scene::FlatScene& flat, const math::View& view,
+                    const math::dvec3& origin, const scene::Viewport& viewport,
+                    const shadow::ShadowMaps* maps, int only = -1);
+
+private:
+    const gl::Api& gl_;
+    gl::Buffer lights_;
+    gl::Buffer view_;
+};
+
+}  // namespace gnomon::render

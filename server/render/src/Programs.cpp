@@ -1,0 +1,134 @@
+#include "Programs.h"
+
+#include "Glsl.h"
+#include "MeshStore.h"
+
+#include <gnomon/gl/Shader.h>
+#include <gnomon/shadow/Filter.h>
+
+#include <array>
+#include <vector>
+
+namespace gnomon::render {
+namespace {
+
+std::string definesFor(const Variant& v) {
+    std::string text;
+    const auto define = [&](bool on, const char* name) {
+        if (on) text += std::string{"#define "} + name + "\n";
+    };
+    define((v.format & hasNormals) != 0, "HAS_NORMALS");
+    define((v.format & hasTexCoords) != 0, "HAS_TEXCOORDS");
+    define((v.format & hasTangents) != 0, "HAS_TANGENTS");
+    define((v.format & hasColors) != 0, "HAS_COLORS");
+    define((v.features & Variant::diffuseMap) != 0, "DIFFUSE_MAP");
+    define((v.features & Variant::normalMap) != 0, "NORMAL_MAP");
+    define((v.features & Variant::emissiveMap) != 0, "EMISSIVE_MAP");
+    define((v.features & Variant::alphaMask) != 0, "ALPHA_MASK");
+    define((v.features & Variant::unlit) != 0, "UNLIT");
+    define((v.features & Variant::scopedLights) != 0, "SCOPED_LIGHTS");
+    define((v.features & Variant::shadows) != 0, "SHADOWS");
+    define(v.pass == Variant::Pass::depth, "DEPTH_ONLY");
+    return text;
+}
+
+}  // namespace
+
+gl::Program Programs::build(std::string_view label, std::string_view defines,
+                            std::string_view vertex,
+                            std::initializer_list<std::string_view> fragment) const {
+    std::vector<gl::ShaderStage> stages;
+    stages.push_back({.type = GL_VERTEX_SHADER, .parts = {glsl::version(), defines, vertex}});
+    if (fragment.size() > 0) {
+        gl::ShaderStage stage{.type = GL_FRAGMENT_SHADER, .parts = {glsl::version(), defines}};
+        stage.parts.insert(stage.parts.end(), fragment.begin(), fragment.end());
+        stages.push_back(std::move(stage));
+    }
+    return orThrow(gl::buildProgram(gl_, label, stages));
+}
+
+void Programs::useFilter(std::string_view name) {
+    if (name == filter_ || shadow::findFilter(name) == nullptr) return;
+    filter_ = name;
+    std::erase_if(meshes_,
+                  [](const auto& entry) { return (entry.first.features & Variant::shadows) != 0; });
+    combine_[1].reset();
+}
+
+GLuint Programs::mesh(const Variant& variant) {
+    const auto [at, isNew] = meshes_.try_emplace(variant);
+    if (!isNew) return at->second.id();
+    const std::string defines = definesFor(variant);
+    const bool shadows = (variant.features & Variant::shadows) != 0;
+    const std::string_view lookup = shadows ? shadow::lookupGlsl() : "";
+    const std::string_view filter = shadows ? shadow::findFilter(filter_)->glsl : "";
+    switch (variant.pass) {
+        case Variant::Pass::color:
+            at->second = build("surface", defines, glsl::meshVertex(),
+                               {glsl::meshCommon(), lookup, filter, glsl::meshColor()});
+            break;
+        case Variant::Pass::factor:
+            at->second = build("shadow factor", defines, glsl::meshVertex(),
+                               {glsl::meshCommon(), lookup, filter, glsl::meshFactor()});
+            break;
+        case Variant::Pass::depth:
+            // Opaque casters need no fragment shader at all.
+            if ((variant.features & Variant::alphaMask) != 0)
+                at->second = build("masked caster", defines, glsl::meshVertex(),
+                                   {glsl::meshCommon(), glsl::meshDepth()});
+            else
+                at->second = build("caster", defines, glsl::meshVertex(), {});
+            break;
+    }
+    return at->second.id();
+}
+
+GLuint Programs::background() {
+    if (!background_) background_ = build("background", "", glsl::coverVertex(), {glsl::background()});
+    return background_.id();
+}
+
+GLuint Programs::foreground() {
+    if (!foreground_)
+        foreground_ = build("foreground", "", glsl::foregroundVertex(), {glsl::foreground()});
+    return foreground_.id();
+}
+
+GLuint Programs::combine(bool shadows) {
+    gl::Program& program = combine_[shadows ? 1 : 0];
+    if (!program)
+        program = shadows ? build("combine", "#define SHADOWS\n", glsl::coverVertex(),
+                                  {glsl::meshCommon(), shadow::lookupGlsl(),
+                                   shadow::findFilter(filter_)->glsl, glsl::combine()})
+                          : build("combine", "", glsl::coverVertex(),
+                                  {glsl::meshCommon(), glsl::combine()});
+    return program.id();
+}
+
+const Programs::Foreign& Programs::foreign(const scene::ShaderMaterial& material) {
+    const auto [at, isNew] = foreign_.try_emplace(material.id());
+    Foreign& made = at->second;
+    if (!isNew) return made;
+    const std::array stages{
+        gl::ShaderStage{.type = GL_VERTEX_SHADER,
+                        .parts = {glsl::version(), material.vertexSource.get()}},
+        gl::ShaderStage{.type = GL_FRAGMENT_SHADER,
+                        .parts = {glsl::version(), material.fragmentSource.get()}}};
+    auto program = gl::buildProgram(gl_, "material of the application", stages);
+    if (!program) {
+        made.error = program.error().what;
+        return made;
+    }
+    made.program = std::move(*program);
+    const auto place = [&](const char* name) {
+        return gl_.GetUniformLocation(made.program.id(), name);
+    };
+    made.clipFromLocal = place("gnomonClipFromLocal");
+    made.eyeFromLocal = place("gnomonEyeFromLocal");
+    made.eyeFromLocalNormal = place("gnomonEyeFromLocalNormal");
+    made.time = place("gnomonTime");
+    made.texture = place("gnomonTexture");
+    return made;
+}
+
+}  // namespace gnomon::render

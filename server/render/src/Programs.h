@@ -1,0 +1,70 @@
+#pragma once
+
+#include <gnomon/gl/Handle.h>
+#include <gnomon/scene/Material.h>
+
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+namespace gnomon::render {
+
+/// What a built-in program is specialised for.
+struct Variant {
+    enum class Pass : std::uint8_t { color, depth, factor };
+    enum Feature : std::uint32_t {
+        diffuseMap = 1,
+        normalMap = 2,
+        emissiveMap = 4,
+        alphaMask = 8,
+        unlit = 16,
+        scopedLights = 32,
+        shadows = 64,
+    };
+    Pass pass = Pass::color;
+    std::uint32_t format = 0;    ///< MeshFormat
+    std::uint32_t features = 0;
+    friend auto operator<=>(const Variant&, const Variant&) = default;
+};
+
+/// Programs, each built the first time it is needed and kept.
+class Programs {
+public:
+    explicit Programs(const gl::Api& gl) : gl_{gl} {}
+
+    /// The shadow filter that lookups use from now on; a new one rebuilds what depends on it.
+    void useFilter(std::string_view name);
+    /// @throws Failure Errc::shader when the driver refuses our own text.
+    GLuint mesh(const Variant& variant);
+    GLuint background();
+    GLuint foreground();
+    GLuint combine(bool shadows);
+
+    /// A material's own program, with the places of the uniforms it declares. id 0: it does not
+    /// compile; error says why.
+    struct Foreign {
+        gl::Program program = {};
+        GLint clipFromLocal = -1, eyeFromLocal = -1, eyeFromLocalNormal = -1, time = -1,
+              texture = -1;
+        std::string error = {};
+    };
+    const Foreign& foreign(const scene::ShaderMaterial& material);
+    void forgetForeign(field::Id material) { foreign_.erase(material); }
+
+private:
+    gl::Program build(std::string_view label, std::string_view defines, std::string_view vertex,
+                      std::initializer_list<std::string_view> fragment) const;
+
+    const gl::Api& gl_;
+    std::string filter_ = "hard";
+    std::map<Variant, gl::Program> meshes_;
+    gl::Program background_;
+    gl::Program foreground_;
+    gl::Program combine_[2];
+    std::unordered_map<field::Id, Foreign> foreign_;
+};
+
+}  // namespace gnomon::render

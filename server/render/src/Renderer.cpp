@@ -1,0 +1,414 @@
+#include <gnomon/render/Renderer.h>
+
+#include "Lights.h"
+#include "Overlay.h"
+#include "SceneDrawer.h"
+#include "Target.h"
+
+#include <gnomon/scene/CameraView.h>
+#include <gnomon/shadow/ShadowMaps.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace gnomon::render {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// What a view without shadows is drawn relative to; ShadowState::origin otherwise.
+math::dvec3 originFor(const math::View& view) {
+    return glm::round(view.eyeWorld() / 32.0) * 32.0;
+}
+
+math::mat4 clipFromOrigin(const math::View& view, const math::dvec3& origin) {
+    math::dmat4 shift{1.0};
+    shift[3] = math::dvec4{origin, 1.0};
+    return math::mat4{view.clipFromWorld() * shift};
+}
+
+}  // namespace
+
+struct Renderer::Parts {
+    Parts(gl::Context& c, const field::Aspect& s, std::function<void(std::string)> r)
+        : context{c},
+          gl{c.api()},
+          scene{s},
+          report{std::move(r)},
+          programs{gl},
+          meshes{gl},
+          textures{gl},
+          maps{gl},
+          lights{gl},
+          overlay{gl, programs, textures} {}
+
+    struct Seen {
+        scene::CameraView camera = {};
+        scene::PixelRect pixels = {};
+        SceneDrawer* drawer = nullptr;
+        std::vector<const scene::ShadowState*> states = {};
+        math::dvec3 origin{0.0};
+    };
+
+    void warnOnce(const std::string& text) {
+        if (warned.insert(text).second && report) report(text);
+    }
+    Result<Seen> look(const scene::Window& window, const scene::Viewport& viewport);
+    Result<Target*> target(const scene::Window& window, bool stencil);
+    SceneDrawer& drawer(const scene::Viewport& viewport);
+    std::vector<const scene::ShadowState*> statesFor(const scene::Viewport& viewport,
+                                                     field::Id group) const;
+    Result<void> drawViewport(const scene::Window& window, const scene::Viewport& viewport,
+                              FrameStatistics& done, double time);
+    void combine(const Target& target, const Seen& seen, bool shadows) const;
+    double lap(Clock::time_point& since) const;
+
+    gl::Context& context;
+    const gl::Api& gl;
+    const field::Aspect& scene;
+    std::function<void(std::string)> report;
+    Programs programs;
+    MeshStore meshes;
+    TextureStore textures;
+    shadow::ShadowMaps maps;
+    Lights lights;
+    Overlay overlay;
+    std::map<field::Id, Target> targets;
+    struct Drawer {
+        std::unique_ptr<SceneDrawer> drawer = {};
+        bool current = false;  ///< follows the last change list
+    };
+    using DrawerKey = std::pair<field::Id, std::vector<field::Id>>;
+    std::map<DrawerKey, Drawer> drawers;
+    std::vector<field::Id> states;
+    field::Applied pending;
+    std::set<std::string> warned;
+    bool measure = false;
+    bool animates = false;
+    gl::VertexArray empty{gl};
+};
+
+Renderer::Renderer(gl::Context& context, const field::Aspect& scene,
+                   std::function<void(std::string)> report)
+    : parts_{std::make_unique<Parts>(context, scene, std::move(report))} {
+    const gl::Api& gl = context.api();
+    gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    gl.Enable(GL_FRAMEBUFFER_SRGB);
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_GREATER);
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+}
+
+Renderer::~Renderer() = default;
+
+void Renderer::measurePasses(bool on) noexcept { parts_->measure = on; }
+bool Renderer::animates() const noexcept { return parts_->animates; }
+void Renderer::finish() const { parts_->gl.Finish(); }
+void Renderer::forgetShadows() { parts_->maps.invalidateAll(); }
+
+void Renderer::update(const field::Applied& applied) {
+    Parts& p = *parts_;
+    for (const field::Id id : applied.destroyed) {
+        p.meshes.forget(id);
+        p.textures.forget(id);
+        p.programs.forgetForeign(id);
+        p.targets.erase(id);
+        std::erase(p.states, id);
+    }
+    for (const auto& change : applied.changed) {
+        const auto* container = p.scene.find(change.id);
+        if (dynamic_cast<const scene::Geometry*>(container) != nullptr) p.meshes.forget(change.id);
+        if (dynamic_cast<const scene::Texture*>(container) != nullptr) p.textures.forget(change.id);
+        if (dynamic_cast<const scene::ShaderMaterial*>(container) != nullptr)
+            p.programs.forgetForeign(change.id);
+        if (dynamic_cast<const scene::ShadowState*>(container) != nullptr &&
+            std::find(p.states.begin(), p.states.end(), change.id) == p.states.end())
+            p.states.push_back(change.id);
+    }
+    for (auto& [key, drawer] : p.drawers) {
+        std::vector<scene::Ref<scene::Node>> excluded;
+        for (const field::Id id : key.second) excluded.emplace_back(id);
+        drawer.drawer->update(scene::Ref<scene::Node>{key.first}, excluded, applied,
+                              [&](const std::string& text) { p.warnOnce(text); });
+        if (drawer.drawer->castersRebuilt())
+            p.maps.invalidateAll();
+        else
+            p.maps.invalidate(drawer.drawer->flat().movedBounds());
+    }
+}
+
+SceneDrawer& Renderer::Parts::drawer(const scene::Viewport& viewport) {
+    DrawerKey key{viewport.root->id, {}};
+    std::vector<scene::Ref<scene::Node>> excluded;
+    if (const auto* shadowed = dynamic_cast<const scene::ShadowViewport*>(&viewport)) {
+        for (const auto& ref : shadowed->excludeNodes) {
+            key.second.push_back(ref.id);
+            excluded.push_back(ref);
+        }
+    }
+    Drawer& entry = drawers[key];
+    if (!entry.drawer) {
+        entry.drawer = std::make_unique<SceneDrawer>(gl, scene, meshes, textures, programs);
+        entry.drawer->update(viewport.root, excluded, {},
+                             [&](const std::string& text) { warnOnce(text); });
+    }
+    return *entry.drawer;
+}
+
+std::vector<const scene::ShadowState*> Renderer::Parts::statesFor(const scene::Viewport& viewport,
+                                                                  field::Id group) const {
+    std::vector<const scene::ShadowState*> found;
+    const auto* shadowed = dynamic_cast<const scene::ShadowViewport*>(&viewport);
+    if (shadowed == nullptr || !shadowed->shadowOn) return found;
+    for (const field::Id id : states) {
+        const auto* state = scene.get(scene::Ref<scene::ShadowState>{id});
+        if (state != nullptr && state->group->id == group && !state->clipFromWorld.empty())
+            found.push_back(state);
+    }
+    return found;
+}
+
+Result<Renderer::Parts::Seen> Renderer::Parts::look(const scene::Window& window,
+                                                    const scene::Viewport& viewport) {
+    Seen seen;
+    seen.pixels = scene::pixelRect(viewport.rect, window.size);
+    if (seen.pixels.width <= 0 || seen.pixels.height <= 0)
+        return fail(Errc::edit, "a viewport without area in window \"" + window.title.get() + "\"");
+    auto camera = scene::cameraView(
+        scene, viewport.camera, static_cast<double>(seen.pixels.width) / seen.pixels.height);
+    if (!camera) return tl::unexpected{std::move(camera).error()};
+    if (!math::isFinite(camera->view.clipFromWorld()))
+        return fail(Errc::edit, "a camera whose matrices are not finite");
+    seen.camera = *camera;
+    seen.drawer = &drawer(viewport);
+    seen.states = statesFor(viewport, camera->group.id);
+    seen.origin =
+        seen.states.empty() ? originFor(camera->view) : seen.states.front()->origin.get();
+    return seen;
+}
+
+Result<Target*> Renderer::Parts::target(const scene::Window& window, bool stencil) {
+    const Target::Shape shape{
+        .size = window.size, .samples = std::max(1, window.samples.get()), .stencil = stencil};
+    const auto found = targets.find(window.id());
+    if (found != targets.end() && found->second.shape() == shape) return &found->second;
+    targets.erase(window.id());
+    auto made = Target::make(gl, shape);
+    if (!made) return tl::unexpected{std::move(made).error()};
+    return &targets.emplace(window.id(), std::move(*made)).first->second;
+}
+
+double Renderer::Parts::lap(Clock::time_point& since) const {
+    if (!measure) return 0.0;
+    gl.Finish();
+    const auto now = Clock::now();
+    const double ms = std::chrono::duration<double, std::milli>(now - since).count();
+    since = now;
+    return ms;
+}
+
+Result<FrameStatistics> Renderer::draw(const scene::Window& window, double time) {
+    FrameStatistics done;
+    parts_->animates = false;
+    for (const auto& ref : window.viewports) {
+        const auto* viewport = dynamic_cast<const scene::Viewport*>(parts_->scene.find(ref.id));
+        if (viewport == nullptr) continue;
+        auto drawn = parts_->drawViewport(window, *viewport, done, time);
+        if (!drawn) return tl::unexpected{std::move(drawn).error()};
+    }
+    const auto found = parts_->targets.find(window.id());
+    if (found != parts_->targets.end()) found->second.resolve(parts_->gl);
+    return done;
+}
+
+Result<void> Renderer::Parts::drawViewport(const scene::Window& window,
+                                           const scene::Viewport& viewport, FrameStatistics& done,
+                                           double time) {
+    auto looked = look(window, viewport);
+    if (!looked) return tl::unexpected{std::move(looked).error()};
+    Seen& seen = *looked;
+    const bool foreign = seen.drawer->batches().hasForeign();
+    animates = animates || foreign;
+    auto made = target(window, foreign);
+    if (!made) return tl::unexpected{std::move(made).error()};
+    const Target& target = **made;
+    SceneDrawer& drawer = *seen.drawer;
+    auto clock = Clock::now();
+    if (measure) gl.Finish();
+
+    drawer.useOrigin(seen.origin);
+    const bool shadowed = !seen.states.empty();
+    if (shadowed) {
+        programs.useFilter(seen.states.front()->filter.get());
+        const auto shadows =
+            maps.prepare(seen.states, seen.camera.view, drawer.flat().bounds(), drawer);
+        done.shadowTriangles += shadows.triangles;
+        done.pagesDrawn += shadows.pagesDrawn;
+        done.pagesKept += shadows.pagesKept;
+        done.pagesUnseen += shadows.pagesUnseen;
+        done.mapTexels += shadows.texelsDrawn;
+        done.mapBytes = shadows.bytes;
+        done.degenerate += shadows.degenerate;
+    }
+    done.shadowMs += lap(clock);
+
+    const auto lit = lights.upload(drawer.flat(), seen.camera.view, seen.origin, viewport,
+                                   shadowed ? &maps : nullptr);
+    done.lights += lit.count;
+    done.lightsLeftOut = static_cast<int>(drawer.flat().lightsLeftOut());
+    if (lit.shadows) maps.bind();
+    if (drawer.flat().lightsLeftOut() > 0)
+        warnOnce(std::to_string(drawer.flat().lightsLeftOut()) +
+                 " lights more than the 64 a scene can have are left out");
+
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target.drawn());
+    gl.Viewport(seen.pixels.x, seen.pixels.y, seen.pixels.width, seen.pixels.height);
+    gl.Scissor(seen.pixels.x, seen.pixels.y, seen.pixels.width, seen.pixels.height);
+    gl.Enable(GL_SCISSOR_TEST);
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_GREATER);
+    gl.DepthMask(GL_TRUE);
+    gl.ClearDepthf(0.0F);
+    gl.ClearStencil(0);
+    gl.Clear(GLbitfield{GL_DEPTH_BUFFER_BIT} |
+             (foreign ? GLbitfield{GL_STENCIL_BUFFER_BIT} : GLbitfield{0}));
+
+    const SceneDrawer::ColorPass pass{.clipFromOrigin = clipFromOrigin(seen.camera.view, seen.origin),
+                                      .clipFromWorld = seen.camera.view.clipFromWorld(),
+                                      .eyeFromWorld = seen.camera.view.eyeFromWorld,
+                                      .eyeWorld = seen.camera.view.eyeWorld(),
+                                      .scopedLights = lit.scoped,
+                                      .shadows = lit.shadows,
+                                      .time = time};
+    const auto count = [&](const PassStatistics& drawn) {
+        done.triangles += drawn.triangles;
+        done.chunks += drawn.chunks;
+        done.chunksCulled += drawn.chunksCulled;
+    };
+    count(drawer.drawOpaque(pass));
+    if (foreign) combine(target, seen, lit.shadows);
+    overlay.drawBackground(scene, viewport, seen.camera.part);
+    count(drawer.drawBlended(pass));
+    done.colorMs += lap(clock);
+    overlay.drawForegrounds(scene, viewport, seen.pixels);
+    gl.Disable(GL_SCISSOR_TEST);
+    done.overlayMs += lap(clock);
+    return {};
+}
+
+void Renderer::Parts::combine(const Target& target, const Seen& seen, bool shadows) const {
+    const GLuint depth = target.depthCopy(gl);
+    const GLuint program = const_cast<Programs&>(programs).combine(shadows);
+    math::dmat4 shift{1.0};
+    shift[3] = math::dvec4{-seen.origin, 1.0};
+    const math::mat4 originFromClip{shift * glm::inverse(seen.camera.view.clipFromWorld())};
+    gl.UseProgram(program);
+    gl.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, &originFromClip[0][0]);
+    gl.ProgramUniform4i(program, 4, seen.pixels.x, seen.pixels.y, seen.pixels.width,
+                        seen.pixels.height);
+    gl.BindTextureUnit(3, depth);
+    gl.Disable(GL_DEPTH_TEST);
+    gl.Disable(GL_CULL_FACE);
+    gl.Enable(GL_STENCIL_TEST);
+    gl.StencilFunc(GL_EQUAL, 1, 0xff);
+    gl.StencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    gl.Enable(GL_BLEND);
+    gl.BlendFunc(GL_DST_COLOR, GL_ZERO);  // in linear light: the framebuffer is sRGB
+    gl.BindVertexArray(empty.id());
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    gl.Disable(GL_BLEND);
+    gl.Disable(GL_STENCIL_TEST);
+    gl.Enable(GL_DEPTH_TEST);
+}
+
+unsigned Renderer::colorTexture(const scene::Window& window) const {
+    const auto found = parts_->targets.find(window.id());
+    return found == parts_->targets.end() ? 0U : found->second.color();
+}
+
+namespace {
+
+/// GL's rows start at the bottom.
+void turnOver(Pixels& pixels) {
+    const auto row = static_cast<std::ptrdiff_t>(pixels.width) * pixels.channels;
+    for (int y = 0; y < pixels.height / 2; ++y)
+        std::swap_ranges(pixels.bytes.begin() + y * row, pixels.bytes.begin() + (y + 1) * row,
+                         pixels.bytes.begin() + (pixels.height - 1 - y) * row);
+}
+
+}  // namespace
+
+Pixels Renderer::read(const scene::Window& window) {
+    const auto found = parts_->targets.find(window.id());
+    if (found == parts_->targets.end()) return {};
+    const auto size = found->second.shape().size;
+    Pixels pixels{.width = size.x, .height = size.y};
+    pixels.bytes.resize(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * 3U);
+    const gl::Api& gl = parts_->gl;
+    gl.BindFramebuffer(GL_READ_FRAMEBUFFER, found->second.resolved());
+    gl.NamedFramebufferReadBuffer(found->second.resolved(), GL_COLOR_ATTACHMENT0);
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl.ReadPixels(0, 0, size.x, size.y, GL_RGB, GL_UNSIGNED_BYTE, pixels.bytes.data());
+    turnOver(pixels);
+    return pixels;
+}
+
+Result<Pixels> Renderer::shadowFactor(const scene::Window& window, std::size_t viewportIndex,
+                                      int light) {
+    Parts& p = *parts_;
+    const gl::Api& gl = p.gl;
+    const auto* viewport =
+        viewportIndex < window.viewports.size()
+            ? dynamic_cast<const scene::Viewport*>(p.scene.find(window.viewports[viewportIndex].id))
+            : nullptr;
+    if (viewport == nullptr)
+        return fail(Errc::config, "no viewport " + std::to_string(viewportIndex));
+    auto looked = p.look(window, *viewport);
+    if (!looked) return tl::unexpected{std::move(looked).error()};
+    const auto& seen = *looked;
+    SceneDrawer& drawer = *seen.drawer;
+    const auto lightCount = drawer.flat().lights().size();
+    if (light < 0 || static_cast<std::size_t>(light) >= lightCount)
+        return fail(Errc::config, "no light " + std::to_string(light) + ": the scene has " +
+                                      std::to_string(lightCount));
+    drawer.useOrigin(seen.origin);
+    if (!seen.states.empty()) {
+        p.programs.useFilter(seen.states.front()->filter.get());
+        p.maps.prepare(seen.states, seen.camera.view, drawer.flat().bounds(), drawer);
+    }
+    const auto lit = p.lights.upload(drawer.flat(), seen.camera.view, seen.origin, *viewport,
+                                     seen.states.empty() ? nullptr : &p.maps, light);
+    if (lit.shadows) p.maps.bind();
+
+    const auto& at = seen.pixels;
+    gl::Texture factor{gl, GLenum{GL_TEXTURE_2D}};
+    gl::Texture depth{gl, GLenum{GL_TEXTURE_2D}};
+    gl::Framebuffer framebuffer{gl};
+    gl.TextureStorage2D(factor.id(), 1, GL_R8, at.width, at.height);
+    gl.TextureStorage2D(depth.id(), 1, GL_DEPTH_COMPONENT32F, at.width, at.height);
+    gl.NamedFramebufferTexture(framebuffer.id(), GL_COLOR_ATTACHMENT0, factor.id(), 0);
+    gl.NamedFramebufferTexture(framebuffer.id(), GL_DEPTH_ATTACHMENT, depth.id(), 0);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+    gl.Viewport(0, 0, at.width, at.height);
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_GREATER);
+    gl.DepthMask(GL_TRUE);
+    gl.ClearDepthf(0.0F);
+    gl.ClearColor(128.0F / 255.0F, 0.0F, 0.0F, 0.0F);
+    gl.Clear(GLbitfield{GL_DEPTH_BUFFER_BIT} | GLbitfield{GL_COLOR_BUFFER_BIT});
+    drawer.drawFactor({.clipFromOrigin = clipFromOrigin(seen.camera.view, seen.origin),
+                       .clipFromWorld = seen.camera.view.clipFromWorld(),
+                       .eyeFromWorld = seen.camera.view.eyeFromWorld,
+                       .eyeWorld = seen.camera.view.eyeWorld(),
+                       .shadows = lit.shadows},
+                      0);
+    Pixels pixels{.width = at.width, .height = at.height, .channels = 1};
+    pixels.bytes.resize(static_cast<std::size_t>(at.width) * static_cast<std::size_t>(at.height));
+    gl.ReadPixels(0, 0, at.width, at.height, GL_RED, GL_UNSIGNED_BYTE, pixels.bytes.data());
+    turnOver(pixels);
+    return pixels;
+}
+
+}  // namespace gnomon::render

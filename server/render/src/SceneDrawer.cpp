@@ -1,0 +1,316 @@
+#include "SceneDrawer.h"
+
+#include <algorithm>
+
+namespace gnomon::render {
+
+SceneDrawer::SceneDrawer(const gl::Api& gl, const field::Aspect& aspect, MeshStore& meshes,
+                         TextureStore& textures, Programs& programs)
+    : gl_{gl},
+      aspect_{aspect},
+      meshes_{meshes},
+      programs_{programs},
+      flat_{aspect},
+      batches_{gl, meshes, textures, programs},
+      commandBuffer_{gl} {
+    commandBuffer_.label("draw commands");
+}
+
+void SceneDrawer::update(scene::Ref<scene::Node> root,
+                         std::span<const scene::Ref<scene::Node>> excluded,
+                         const field::Applied& applied,
+                         const std::function<void(std::string)>& report) {
+    flat_.update(root, excluded, applied);
+    rebuilt_ = flat_.rebuilt();
+    // Parameters of materials and textures are rare to change: grouping anew is simple and right.
+    for (const auto& change : applied.changed) {
+        if (rebuilt_) break;
+        const auto* container = aspect_.find(change.id);
+        rebuilt_ = dynamic_cast<const scene::Material*>(container) != nullptr ||
+                   dynamic_cast<const scene::Texture*>(container) != nullptr;
+    }
+    if (rebuilt_) {
+        batches_.rebuild(flat_, aspect_, report);
+        instances_.resize(flat_.instances().size());
+        haveOrigin_ = false;
+    } else if (!flat_.moved().empty()) {
+        batches_.move(flat_);
+        if (!haveOrigin_) return;
+        const auto moved = flat_.moved();
+        for (const std::uint32_t i : moved) writeInstance(i);
+        // Many small writes cost more than one large one.
+        if (moved.size() > instances_.size() / 8 + 8) {
+            uploadInstances();
+        } else {
+            for (const std::uint32_t i : moved)
+                gl_.NamedBufferSubData(instanceBuffer_.id(),
+                                       static_cast<GLintptr>(i * sizeof(InstanceGpu)),
+                                       sizeof(InstanceGpu), &instances_[i]);
+        }
+    }
+}
+
+void SceneDrawer::writeInstance(std::size_t index) {
+    const auto& instance = flat_.instances()[index];
+    const math::dmat4& world = flat_.worldFromLocal(instance);
+    InstanceGpu& gpu = instances_[index];
+    for (int row = 0; row < 3; ++row) {
+        const double shift = world[3][row] - origin_[row];
+        gpu.rows[row] = math::vec4{math::dvec4{world[0][row], world[1][row], world[2][row], shift}};
+    }
+    gpu.info = {static_cast<std::uint32_t>(instance.lights),
+                static_cast<std::uint32_t>(instance.lights >> 32U), 0U, 0U};
+}
+
+void SceneDrawer::uploadInstances() {
+    if (instances_.empty()) return;
+    if (instances_.size() > instanceCapacity_) {
+        instanceCapacity_ = instances_.size() + instances_.size() / 2;
+        instanceBuffer_ = gl::Buffer{gl_};
+        instanceBuffer_.label("instances");
+        gl_.NamedBufferStorage(instanceBuffer_.id(),
+                               static_cast<GLsizeiptr>(instanceCapacity_ * sizeof(InstanceGpu)),
+                               nullptr, GL_DYNAMIC_STORAGE_BIT);
+    }
+    gl_.NamedBufferSubData(instanceBuffer_.id(), 0,
+                           static_cast<GLsizeiptr>(instances_.size() * sizeof(InstanceGpu)),
+                           instances_.data());
+}
+
+void SceneDrawer::useOrigin(const math::dvec3& origin) {
+    if (!haveOrigin_ || origin_ != origin) {
+        origin_ = origin;
+        haveOrigin_ = true;
+        for (std::size_t i = 0; i < instances_.size(); ++i) writeInstance(i);
+        uploadInstances();
+    }
+    if (instanceBuffer_) meshes_.useInstances(instanceBuffer_.id(), sizeof(InstanceGpu));
+}
+
+PassStatistics SceneDrawer::gather(const ColorPass& pass, bool blended) {
+    PassStatistics done;
+    const auto planes = math::frustumPlanes(pass.clipFromWorld);
+    const auto states = batches_.batches();
+    items_.resize(std::max({items_.size(), states.size(), batches_.depthBatches().size()}));
+    for (auto& items : items_) items.clear();
+    for (const Drawable& drawable : batches_.drawables()) {
+        const BatchState& state = states[drawable.batch];
+        if (state.blend != blended) continue;
+        if (!math::mayIntersect(planes, drawable.bounds)) {
+            ++done.chunksCulled;
+            continue;
+        }
+        const math::dvec3 nearest =
+            glm::clamp(pass.eyeWorld, drawable.bounds.min, drawable.bounds.max);
+        const math::dvec3 way =
+            (blended ? drawable.bounds.centre() : nearest) - pass.eyeWorld;
+        items_[drawable.batch].push_back(
+            {.distance = static_cast<float>(glm::dot(way, way)), .command = drawable.command});
+        ++done.chunks;
+        if (state.primitive == GL_TRIANGLES) done.triangles += drawable.command.count / 3;
+    }
+    return done;
+}
+
+void SceneDrawer::setFaces(const BatchState& state) {
+    if (state.cull == Cull::none) {
+        gl_.Disable(GL_CULL_FACE);
+        return;
+    }
+    gl_.Enable(GL_CULL_FACE);
+    gl_.CullFace(state.cull == Cull::back ? GL_BACK : GL_FRONT);
+    gl_.FrontFace(state.mirrored ? GL_CW : GL_CCW);
+}
+
+void SceneDrawer::flush(std::span<const BatchState> states,
+                        const std::function<void(const BatchState&)>& use, bool positionsOnly) {
+    commands_.clear();
+    for (std::size_t i = 0; i < states.size(); ++i)
+        if (states[i].foreign == nullptr)
+            for (const Item& item : items_[i]) commands_.push_back(item.command);
+    if (commands_.empty()) return;
+    gl_.NamedBufferData(commandBuffer_.id(),
+                        static_cast<GLsizeiptr>(commands_.size() * sizeof(DrawCommand)),
+                        commands_.data(), GL_STREAM_DRAW);
+    gl_.BindBuffer(GL_DRAW_INDIRECT_BUFFER, commandBuffer_.id());
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const BatchState& state = states[i];
+        if (items_[i].empty() || state.foreign != nullptr) continue;
+        use(state);
+        setFaces(state);
+        gl_.BindVertexArray(meshes_.vertexArray(state.format, positionsOnly));
+        gl_.MultiDrawElementsIndirect(state.primitive, GL_UNSIGNED_INT,
+                                      reinterpret_cast<const void*>(first * sizeof(DrawCommand)),
+                                      static_cast<GLsizei>(items_[i].size()), 0);
+        first += items_[i].size();
+    }
+}
+
+PassStatistics SceneDrawer::drawOpaque(const ColorPass& pass) {
+    const PassStatistics done = gather(pass, false);
+    const auto states = batches_.batches();
+    for (std::size_t i = 0; i < states.size(); ++i)
+        std::sort(items_[i].begin(), items_[i].end(),
+                  [](const Item& a, const Item& b) { return a.distance < b.distance; });
+    flush(
+        states,
+        [&](const BatchState& state) {
+            Variant variant{.format = state.format, .features = state.features};
+            if (pass.scopedLights) variant.features |= Variant::scopedLights;
+            if (pass.shadows) variant.features |= Variant::shadows;
+            const GLuint program = programs_.mesh(variant);
+            gl_.UseProgram(program);
+            gl_.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, &pass.clipFromOrigin[0][0]);
+            batches_.bindMaterial(state.material);
+            gl_.BindTextures(0, 3, state.textures.data());
+        },
+        false);
+    for (std::size_t i = 0; i < states.size(); ++i)
+        if (states[i].foreign != nullptr && !items_[i].empty()) drawForeign(states[i], items_[i], pass);
+    return done;
+}
+
+PassStatistics SceneDrawer::drawBlended(const ColorPass& pass) {
+    const PassStatistics done = gather(pass, true);
+    if (done.chunks == 0) return done;
+    struct Sorted {
+        Item item = {};
+        std::uint32_t batch = 0;
+    };
+    std::vector<Sorted> sorted;
+    const auto states = batches_.batches();
+    for (std::uint32_t i = 0; i < states.size(); ++i)
+        for (const Item& item : items_[i]) sorted.push_back({.item = item, .batch = i});
+    std::stable_sort(sorted.begin(), sorted.end(), [](const Sorted& a, const Sorted& b) {
+        return a.item.distance > b.item.distance;
+    });
+    gl_.Enable(GL_BLEND);
+    gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    gl_.DepthMask(GL_FALSE);
+    for (const Sorted& draw : sorted) {
+        const BatchState& state = states[draw.batch];
+        Variant variant{.format = state.format, .features = state.features};
+        if (pass.scopedLights) variant.features |= Variant::scopedLights;
+        if (pass.shadows) variant.features |= Variant::shadows;
+        const GLuint program = programs_.mesh(variant);
+        gl_.UseProgram(program);
+        gl_.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, &pass.clipFromOrigin[0][0]);
+        batches_.bindMaterial(state.material);
+        gl_.BindTextures(0, 3, state.textures.data());
+        setFaces(state);
+        gl_.BindVertexArray(meshes_.vertexArray(state.format, false));
+        const DrawCommand& command = draw.item.command;
+        gl_.DrawElementsInstancedBaseVertexBaseInstance(
+            state.primitive, static_cast<GLsizei>(command.count), GL_UNSIGNED_INT,
+            reinterpret_cast<const void*>(std::uintptr_t{command.firstIndex} * 4U), 1,
+            command.baseVertex, command.baseInstance);
+    }
+    gl_.DepthMask(GL_TRUE);
+    gl_.Disable(GL_BLEND);
+    return done;
+}
+
+void SceneDrawer::drawForeign(const BatchState& state, const std::vector<Item>& items,
+                              const ColorPass& pass) {
+    const auto& foreign = programs_.foreign(*state.foreign);
+    const GLuint program = foreign.program.id();
+    gl_.UseProgram(program);
+    gl_.BindTextures(0, 3, state.textures.data());
+    if (foreign.texture >= 0) gl_.ProgramUniform1i(program, foreign.texture, 0);
+    if (foreign.time >= 0)
+        gl_.ProgramUniform1f(program, foreign.time, static_cast<float>(pass.time));
+    setFaces(state);
+    gl_.BindVertexArray(meshes_.vertexArray(state.format, false));
+    gl_.Enable(GL_STENCIL_TEST);
+    gl_.StencilFunc(GL_ALWAYS, 1, 0xff);
+    gl_.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    for (const Item& item : items) {
+        const auto& instance = flat_.instances()[item.command.baseInstance];
+        const math::dmat4& world = flat_.worldFromLocal(instance);
+        const math::mat4 clip{pass.clipFromWorld * world};
+        const math::mat4 eye{pass.eyeFromWorld * world};
+        if (foreign.clipFromLocal >= 0)
+            gl_.ProgramUniformMatrix4fv(program, foreign.clipFromLocal, 1, GL_FALSE, &clip[0][0]);
+        if (foreign.eyeFromLocal >= 0)
+            gl_.ProgramUniformMatrix4fv(program, foreign.eyeFromLocal, 1, GL_FALSE, &eye[0][0]);
+        if (foreign.eyeFromLocalNormal >= 0) {
+            const math::vec3 a{eye[0]};
+            const math::vec3 b{eye[1]};
+            const math::vec3 c{eye[2]};
+            const math::mat3 cofactors{glm::cross(b, c), glm::cross(c, a), glm::cross(a, b)};
+            gl_.ProgramUniformMatrix3fv(program, foreign.eyeFromLocalNormal, 1, GL_FALSE,
+                                        &cofactors[0][0]);
+        }
+        gl_.DrawElementsInstancedBaseVertexBaseInstance(
+            state.primitive, static_cast<GLsizei>(item.command.count), GL_UNSIGNED_INT,
+            reinterpret_cast<const void*>(std::uintptr_t{item.command.firstIndex} * 4U), 1,
+            item.command.baseVertex, item.command.baseInstance);
+    }
+    gl_.Disable(GL_STENCIL_TEST);
+}
+
+void SceneDrawer::drawFactor(const ColorPass& pass, int lightIndex) {
+    gather(pass, false);
+    const auto states = batches_.batches();
+    // A foreign material's geometry is drawn as it stands: its own vertex shader is not asked.
+    std::vector<BatchState> plain(states.begin(), states.end());
+    for (BatchState& state : plain) state.foreign = nullptr;
+    flush(
+        plain,
+        [&](const BatchState& state) {
+            Variant variant{.pass = Variant::Pass::factor,
+                            .format = state.format,
+                            .features = state.features & (Variant::alphaMask | Variant::diffuseMap)};
+            if (pass.shadows) variant.features |= Variant::shadows;
+            const GLuint program = programs_.mesh(variant);
+            gl_.UseProgram(program);
+            gl_.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, &pass.clipFromOrigin[0][0]);
+            gl_.ProgramUniform1i(program, 1, lightIndex);
+            batches_.bindMaterial(state.material);
+            gl_.BindTextures(0, 3, state.textures.data());
+        },
+        false);
+}
+
+shadow::CasterSource::Drawn SceneDrawer::drawCasters(const math::mat4& clipFromOrigin,
+                                                     std::span<const math::Plane> sides) {
+    Drawn done;
+    const auto states = batches_.depthBatches();
+    items_.resize(std::max({items_.size(), states.size(), batches_.batches().size()}));
+    for (auto& items : items_) items.clear();
+    for (const Drawable& drawable : batches_.drawables()) {
+        if (drawable.depthBatch == Drawable::none) continue;
+        const math::Box& box = drawable.bounds;
+        bool outside = box.empty();
+        for (const math::Plane& side : sides) {
+            const math::dvec3 furthest{side.normal.x > 0.0 ? box.max.x : box.min.x,
+                                       side.normal.y > 0.0 ? box.max.y : box.min.y,
+                                       side.normal.z > 0.0 ? box.max.z : box.min.z};
+            outside = outside || side.distance(furthest) < 0.0;
+        }
+        if (outside) continue;
+        items_[drawable.depthBatch].push_back({.command = drawable.command});
+        ++done.chunks;
+        done.triangles += drawable.command.count / 3;
+    }
+    flush(
+        states,
+        [&](const BatchState& state) {
+            const bool masked = (state.features & Variant::alphaMask) != 0;
+            // An opaque caster reads positions alone, whatever else its mesh has.
+            const GLuint program = programs_.mesh({.pass = Variant::Pass::depth,
+                                                   .format = masked ? state.format & (hasTexCoords | hasColors) : 0U,
+                                                   .features = state.features});
+            gl_.UseProgram(program);
+            gl_.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, &clipFromOrigin[0][0]);
+            if (masked) {
+                batches_.bindMaterial(state.material);
+                gl_.BindTextures(0, 3, state.textures.data());
+            }
+        },
+        true);
+    return done;
+}
+
+}  // namespace gnomon::render

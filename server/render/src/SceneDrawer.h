@@ -1,0 +1,92 @@
+#pragma once
+
+#include "Batches.h"
+
+#include <gnomon/shadow/ShadowMaps.h>
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gnomon::render {
+
+/// What one pass over the scene draws.
+struct PassStatistics {
+    std::uint64_t triangles = 0;
+    std::uint64_t chunks = 0;
+    std::uint64_t chunksCulled = 0;
+};
+
+/// One root's scene on the GPU: instances, batches, and the passes over them.
+class SceneDrawer final : public shadow::CasterSource {
+public:
+    SceneDrawer(const gl::Api& gl, const field::Aspect& aspect, MeshStore& meshes,
+                TextureStore& textures, Programs& programs);
+
+    /// Follows the containers. @param report  told of what cannot be drawn.
+    void update(scene::Ref<scene::Node> root, std::span<const scene::Ref<scene::Node>> excluded,
+                const field::Applied& applied, const std::function<void(std::string)>& report);
+    const scene::FlatScene& flat() const noexcept { return flat_; }
+    const Batches& batches() const noexcept { return batches_; }
+    /// True when what may cast changed beyond moved instances since the last update.
+    bool castersRebuilt() const noexcept { return rebuilt_; }
+
+    /// Everything drawn from now on is relative to @p origin (world).
+    void useOrigin(const math::dvec3& origin);
+
+    struct ColorPass {
+        math::mat4 clipFromOrigin{1.0F};
+        math::dmat4 clipFromWorld{1.0};
+        math::dmat4 eyeFromWorld{1.0};
+        math::dvec3 eyeWorld{0.0};
+        bool scopedLights = false;
+        bool shadows = false;
+        double time = 0.0;
+    };
+    /// Opaque and masked surfaces, nearest first. Foreign materials mark stencil 1.
+    PassStatistics drawOpaque(const ColorPass& pass);
+    /// Blended surfaces, furthest first.
+    PassStatistics drawBlended(const ColorPass& pass);
+    /// One light's factor on everything opaque.
+    void drawFactor(const ColorPass& pass, int lightIndex);
+
+    Drawn drawCasters(const math::mat4& clipFromOrigin,
+                      std::span<const math::Plane> sidesWorld) override;
+
+private:
+    struct Item {
+        float distance = 0.0F;
+        DrawCommand command = {};
+    };
+    void uploadInstances();
+    void writeInstance(std::size_t index);
+    PassStatistics gather(const ColorPass& pass, bool blended);
+    void flush(std::span<const BatchState> states, const std::function<void(const BatchState&)>& use,
+               bool positionsOnly);
+    void setFaces(const BatchState& state);
+    void drawForeign(const BatchState& state, const std::vector<Item>& items, const ColorPass& pass);
+
+    struct InstanceGpu {
+        math::vec4 rows[3];
+        glm::uvec4 info;
+    };
+
+    const gl::Api& gl_;
+    const field::Aspect& aspect_;
+    MeshStore& meshes_;
+    Programs& programs_;
+    scene::FlatScene flat_;
+    Batches batches_;
+    math::dvec3 origin_{0.0};
+    bool haveOrigin_ = false;
+    bool rebuilt_ = true;
+    std::vector<InstanceGpu> instances_;
+    gl::Buffer instanceBuffer_;
+    std::size_t instanceCapacity_ = 0;
+    gl::Buffer commandBuffer_;
+    std::vector<std::vector<Item>> items_;  // by batch; kept for their memory
+    std::vector<DrawCommand> commands_;
+};
+
+}  // namespace gnomon::render

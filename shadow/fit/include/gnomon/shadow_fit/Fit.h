@@ -1,0 +1,69 @@
+#pragma once
+
+#include <gnomon/base/Error.h>
+#include <gnomon/math/ConvexBody.h>
+#include <gnomon/math/View.h>
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::shadow_fit {
+
+enum class LightKind { directional, spot, point };
+
+/// A light as a fit sees it, in world space and metres.
+struct LightShape {
+    LightKind kind = LightKind::directional;
+    math::dvec3 position{0.0};              ///< spot and point
+    math::dvec3 direction{0.0, -1.0, 0.0};  ///< unit, from the light into the scene
+    double halfAngle = 0.785;               ///< of a spot's cone, radians, < pi/2
+    double range = 0.0;                     ///< beyond it nothing is lit; 0: unlimited
+};
+
+struct FitInput {
+    LightShape light = {};
+    /// Everything the fit group sees: all eyes, whole screens.
+    std::span<const math::View> views = {};
+    math::Box scene = {};  ///< bounds of all casters and receivers
+    int mapSize = 512;     ///< texels a side
+};
+
+/// One map's light camera.
+struct FittedMap {
+    /// Clip space of the map from world. Depth reversed: 1 at the near side. Casters nearer to the
+    /// light than that are clamped when the map is drawn. Finite always.
+    math::dmat4 clipFromWorld{1.0};
+};
+
+struct Fitted {
+    std::vector<FittedMap> maps = {};  ///< none: no visible receiver, no shadow to compute
+    bool degenerate = false;           ///< the plain fit was used instead
+};
+
+/// A way to choose light frusta: a pure function.
+struct FitInfo {
+    std::string_view name = {};    ///< the word in configs and on the command line
+    std::string_view source = {};  ///< authors, title, year
+    Fitted (*fit)(const FitInput&) = nullptr;
+};
+
+/// Every fit built in, sorted by name.
+std::span<const FitInfo> fits();
+
+/// `FIT[+FILTER]` taken apart. A filter alone means std+filter; "none" has neither.
+struct TechniqueName {
+    std::string fit = {};
+    std::string filter = {};
+    bool none() const noexcept { return fit.empty(); }
+};
+/// Errors (Errc::config) name the words that would have done.
+Result<TechniqueName> parseTechnique(std::string_view text, std::span<const std::string_view> filters);
+
+/// What the light can reach of what is seen: corners of (view volume, cut by the scene's bounds and
+/// by a spot's frustum), over all views. Empty: nothing to shadow.
+std::vector<math::dvec3> receiverPoints(const FitInput& input);
+
+}  // namespace gnomon::shadow_fit

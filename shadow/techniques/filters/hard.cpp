@@ -1,0 +1,18 @@
+// One comparison a pixel, interpolated between the four nearest texels by the hardware.
+// William Reeves, David Salesin, Robert Cook. Rendering Antialiased Shadows with Depth Maps. 1987.
+#include <gnomon/shadow/Filter.h>
+
+namespace gnomon::shadow {
+
+FilterInfo describe_hard() {
+    return {.name = "hard",
+            .source = "Reeves, Salesin, Cook 1987",
+            .glsl = R"glsl(
+float filteredShadow(uint map, vec3 q) {
+    return pageCompare(map, q.xy * shadowMaps[map].texel.z, q.z);
+}
+)glsl",
+            .radiusTexels = 1.0F};
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,64 @@
+#include <gnomon/shadow/Filter.h>
+
+namespace gnomon::shadow {
+
+std::string_view lookupGlsl() noexcept {
+    // The depth offset is along the receiver's normal. A lookup reaches r + 1/2 texels to each side,
+    // over which a plane at angle a to the light rises sqrt(2) (r + 1/2) t tan(a); moving the
+    // receiver by o along its normal clears o / cos(a). The small constant covers rounding where the
+    // plane faces the light. Source: Daniel Holbert. Saying Goodbye to Shadow Acne. GDC 2011.
+    return R"glsl(
+struct ShadowMap {
+    mat4 clipFromOrigin;
+    vec4 texel;   // x: metres a texel at w = 1, y: reach in texels, z: map size, w: page size
+    uvec4 pages;  // x: pages a side, y: first entry of the table, z: the layer where x is 1
+};
+layout(std140, binding = 4) uniform ShadowMapBlock { ShadowMap shadowMaps[128]; };
+layout(std140, binding = 5) uniform PageTableBlock { uvec4 pageTable[1024]; };
+layout(binding = 8) uniform sampler2DArrayShadow shadowPages;
+
+const uint pageMissing = 0xffffffffu;
+
+// Bilinear comparison at a position in texels of the map. Lit where nothing was drawn.
+float pageCompare(uint map, vec2 texel, float depth) {
+    uint side = shadowMaps[map].pages.x;
+    float pageSize = shadowMaps[map].texel.w;
+    uint layer = shadowMaps[map].pages.z;
+    if (side > 1u) {
+        uvec2 page = uvec2(clamp(texel / pageSize, vec2(0.0), vec2(float(side) - 1.0)));
+        uint entry = shadowMaps[map].pages.y + page.y * side + page.x;
+        layer = pageTable[entry >> 2u][entry & 3u];
+        texel -= vec2(page) * pageSize;
+    }
+    if (layer == pageMissing) return 1.0;
+    return texture(shadowPages, vec4((texel + 1.0) / (pageSize + 2.0), float(layer), depth));
+}
+
+float filteredShadow(uint map, vec3 q);
+
+// How much of a light reaches a surface: 1 all, 0 nothing. The first of its maps that holds the
+// place decides; outside all of them it is lit.
+//   maps      first map and number of maps
+//   position  relative to the group's origin
+//   normal    of the surface, unit, on the side that is seen
+//   nDotL     cosine to the light, > 0
+float shadowFactor(uvec2 maps, vec3 position, vec3 normal, float nDotL) {
+    float sine = sqrt(max(1.0 - nDotL * nDotL, 0.0));
+    for (uint map = maps.x; map < maps.x + maps.y; ++map) {
+        mat4 m = shadowMaps[map].clipFromOrigin;
+        vec4 texelInfo = shadowMaps[map].texel;
+        float w = m[0].w * position.x + m[1].w * position.y + m[2].w * position.z + m[3].w;
+        if (w <= 0.0) continue;
+        float offset = texelInfo.x * w * (0.05 + 1.4142 * texelInfo.y * sine);
+        vec4 clip = m * vec4(position + normal * offset, 1.0);
+        vec3 q = clip.xyz / clip.w;
+        q.xy = q.xy * 0.5 + 0.5;
+        if (all(greaterThanEqual(q.xy, vec2(0.0))) && all(lessThanEqual(q.xy, vec2(1.0))))
+            return filteredShadow(map, q);
+    }
+    return 1.0;
+}
+)glsl";
+}
+
+}  // namespace gnomon::shadow
