@@ -331,32 +331,33 @@ unsigned Renderer::colorTexture(const scene::Window& window) const {
 namespace {
 
 /// GL's rows start at the bottom.
-void turnOver(Pixels& pixels) {
-    const auto row = static_cast<std::ptrdiff_t>(pixels.width) * pixels.channels;
-    for (int y = 0; y < pixels.height / 2; ++y)
-        std::swap_ranges(pixels.bytes.begin() + y * row, pixels.bytes.begin() + (y + 1) * row,
-                         pixels.bytes.begin() + (pixels.height - 1 - y) * row);
+void turnOver(image::Image& picture) {
+    const auto row = static_cast<std::ptrdiff_t>(picture.width) * picture.channels;
+    const auto first = picture.pixels.begin();
+    for (int y = 0; y < picture.height / 2; ++y)
+        std::swap_ranges(first + y * row, first + (y + 1) * row,
+                         first + (picture.height - 1 - y) * row);
 }
 
 }  // namespace
 
-Pixels Renderer::read(const scene::Window& window) {
+image::Image Renderer::read(const scene::Window& window) {
     const auto found = parts_->targets.find(window.id());
     if (found == parts_->targets.end()) return {};
     const auto size = found->second.shape().size;
-    Pixels pixels{.width = size.x, .height = size.y};
-    pixels.bytes.resize(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * 3U);
+    image::Image picture = image::blank(size.x, size.y, 3);
     const gl::Api& gl = parts_->gl;
     gl.BindFramebuffer(GL_READ_FRAMEBUFFER, found->second.resolved());
     gl.NamedFramebufferReadBuffer(found->second.resolved(), GL_COLOR_ATTACHMENT0);
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl.ReadPixels(0, 0, size.x, size.y, GL_RGB, GL_UNSIGNED_BYTE, pixels.bytes.data());
-    turnOver(pixels);
-    return pixels;
+    gl.ReadPixels(0, 0, size.x, size.y, GL_RGB, GL_UNSIGNED_BYTE, picture.pixels.data());
+    turnOver(picture);
+    return picture;
 }
 
-Result<Pixels> Renderer::shadowFactor(const scene::Window& window, std::size_t viewportIndex,
-                                      int light) {
+Result<image::Image> Renderer::shadowFactor(const scene::Window& window,
+                                            std::size_t viewportIndex,
+                                            scene::Ref<scene::Node> light) {
     Parts& p = *parts_;
     const gl::Api& gl = p.gl;
     const auto* viewport =
@@ -369,17 +370,20 @@ Result<Pixels> Renderer::shadowFactor(const scene::Window& window, std::size_t v
     if (!looked) return tl::unexpected{std::move(looked).error()};
     const auto& seen = *looked;
     SceneDrawer& drawer = *seen.drawer;
-    const auto lightCount = drawer.flat().lights().size();
-    if (light < 0 || static_cast<std::size_t>(light) >= lightCount)
-        return fail(Errc::config, "no light " + std::to_string(light) + ": the scene has " +
-                                      std::to_string(lightCount));
+    const auto all = drawer.flat().lights();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const auto& use) {
+        return use.node->id() == light.id;
+    });
+    if (found == all.end())
+        return fail(Errc::config, "no such light: the scene has " + std::to_string(all.size()));
+    const auto index = static_cast<int>(found - all.begin());
     drawer.useOrigin(seen.origin);
     if (!seen.states.empty()) {
         p.programs.useFilter(seen.states.front()->filter.get());
         p.maps.prepare(seen.states, seen.camera.view, drawer.flat().bounds(), drawer);
     }
     const auto lit = p.lights.upload(drawer.flat(), seen.camera.view, seen.origin, *viewport,
-                                     seen.states.empty() ? nullptr : &p.maps, light);
+                                     seen.states.empty() ? nullptr : &p.maps, index);
     if (lit.shadows) p.maps.bind();
 
     const auto& at = seen.pixels;
@@ -404,11 +408,10 @@ Result<Pixels> Renderer::shadowFactor(const scene::Window& window, std::size_t v
                        .eyeWorld = seen.camera.view.eyeWorld(),
                        .shadows = lit.shadows},
                       0);
-    Pixels pixels{.width = at.width, .height = at.height, .channels = 1};
-    pixels.bytes.resize(static_cast<std::size_t>(at.width) * static_cast<std::size_t>(at.height));
-    gl.ReadPixels(0, 0, at.width, at.height, GL_RED, GL_UNSIGNED_BYTE, pixels.bytes.data());
-    turnOver(pixels);
-    return pixels;
+    image::Image picture = image::blank(at.width, at.height, 1);
+    gl.ReadPixels(0, 0, at.width, at.height, GL_RED, GL_UNSIGNED_BYTE, picture.pixels.data());
+    turnOver(picture);
+    return picture;
 }
 
 }  // namespace gnomon::render

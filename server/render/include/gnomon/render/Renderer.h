@@ -2,6 +2,7 @@
 
 #include <gnomon/field/Aspect.h>
 #include <gnomon/gl/Context.h>
+#include <gnomon/image/Image.h>
 #include <gnomon/scene/Window.h>
 
 #include <chrono>
@@ -31,14 +32,6 @@ struct FrameStatistics {
     double shadowMs = 0.0;
     double colorMs = 0.0;
     double overlayMs = 0.0;
-};
-
-/// Rows from the top, rgb8 (sRGB) or one channel.
-struct Pixels {
-    int width = 0;
-    int height = 0;
-    int channels = 3;
-    std::vector<std::uint8_t> bytes = {};
 };
 
 /// Draws the windows of a replicated scene with one context. Owns everything it makes there and must
@@ -71,11 +64,13 @@ public:
 
     /// The window's picture as of the last draw(): an sRGB 2D texture, bottom row first.
     unsigned colorTexture(const scene::Window& window) const;
-    Pixels read(const scene::Window& window);
+    /// RGB, sRGB; empty before the first draw().
+    image::Image read(const scene::Window& window);
     /// One light's shadow factor as seen by a viewport: 255 lit, 0 shadowed or facing away, 128 no
-    /// surface. @param light  index among the lights of the scene, in tree order.
-    /// Errors: no such light (Errc::config).
-    Result<Pixels> shadowFactor(const scene::Window& window, std::size_t viewport, int light);
+    /// surface. One channel. @param light  the node whose core is the light.
+    /// Errors (Errc::config): no such viewport, no such light in its scene.
+    Result<image::Image> shadowFactor(const scene::Window& window, std::size_t viewport,
+                                      scene::Ref<scene::Node> light);
 
 private:
     struct Parts;

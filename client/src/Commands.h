@@ -1,0 +1,18 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+
+namespace gnomon::client {
+
+/// What the chosen subcommand does once the command line is parsed; its value is the exit code.
+/// A Failure it throws ends the program with exit code 1 and one line.
+using Action = std::function<int()>;
+
+/// Each adds its subcommand; when that is chosen, @p action becomes what it does.
+void addRun(CLI::App& program, Action& action);
+void addCheck(CLI::App& program, Action& action);
+void addShot(CLI::App& program, Action& action);
+
+}  // namespace gnomon::client

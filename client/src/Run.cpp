@@ -1,0 +1,222 @@
+#include "Console.h"
+#include "Interrupt.h"
+#include "RunOptions.h"
+#include "Statistics.h"
+
+#include <gnomon/client/CameraPath.h>
+#include <gnomon/config/Load.h>
+#include <gnomon/config/Report.h>
+#include <gnomon/image/Png.h>
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cerrno>
+#include <fstream>
+#include <thread>
+
+namespace gnomon::client {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+constexpr double framesPerSecond = 60.0;  // of a run with --frames: what it shows does not depend
+                                          // on how fast it is
+
+config::Config loadWall(const RunOptions& options, Console& console) {
+    const auto inspection = orThrow(config::inspectFile(options.config));
+    if (config::hasError(inspection.findings)) throw Failure{config::toError(inspection.findings)};
+    for (const auto& finding : inspection.findings) console.line(finding.text());
+    GNOMON_EXPECTS(inspection.config.has_value(), "a configuration without errors has a value");
+    config::Config wall = *inspection.config;
+    options.shadow.apply(wall.shadow);
+    if (options.view.near) wall.render.near = options.view.near;
+    if (options.view.far) wall.render.far = options.view.far;
+    return wall;
+}
+
+ApplicationOptions applicationOptions(const RunOptions& options, Console& console) {
+    ApplicationOptions made;
+    made.local = options.local;
+    made.tileSize = options.tile;
+    made.backend = options.backend;
+    made.log = [&console](LogLevel level, const std::string& line) { console.log(level, line); };
+    return made;
+}
+
+int dryRun(const config::Config& wall, const ApplicationOptions& options, Console& console) {
+    const auto config = orThrow(adjusted(wall, options));
+    for (const auto& command : launchCommands(config, options.server, options.backend,
+                                              std::max(1U, std::thread::hardware_concurrency())))
+        console.line(command.text());
+    for (const auto& server : config.servers)
+        if (!config::isLocal(server.host))
+            console.line(fmt::format("# {}: expected to be running at {}:{}", server.name,
+                                     server.host, server.port));
+    return 0;
+}
+
+/// Who is not there yet, for people.
+std::string waitingFor(const std::vector<net::ServerStatus>& servers) {
+    for (const auto& server : servers)
+        if (server.state != net::ServerState::member)
+            return fmt::format("{} ({}:{}): {}", server.address.name, server.address.host,
+                               server.address.port, server.text);
+    return {};
+}
+
+class Runner {
+public:
+    Runner(const RunOptions& options, Console& console)
+        : options_{options},
+          console_{console},
+          path_{loadPath(options)},
+          app_{loadWall(options, console), applicationOptions(options, console)} {}
+
+    int run() {
+        loadScene();
+        const Interrupt interrupt;
+        if (!start(interrupt)) return 0;
+        const net::FrameResult last = frames(interrupt);
+        console_.line(statistics_.summary());
+        if (!options_.out.empty()) writePictures(last);
+        if (!options_.json.empty()) writeJson();
+        app_.shutdown();
+        return 0;
+    }
+
+private:
+    static std::optional<CameraPath> loadPath(const RunOptions& options) {
+        if (options.path.empty()) return {};
+        return orThrow(CameraPath::load(options.path));
+    }
+
+    void loadScene() {
+        if (options_.view.size || options_.view.fovy)
+            console_.line("note: --size and --fovy mean nothing on a wall: screens and head decide");
+        const std::string title = "loading " + options_.scene.filename().string();
+        SceneOptions scene{.file = options_.scene, .lights = options_.lights};
+        if (!scene.file.empty())
+            scene.progress = [&](double share, const std::string& what) {
+                // The last word is ours, below.
+                console_.progress(title, std::min(share, 0.99), what);
+            };
+        orThrow(app_.loadScene(scene));
+        if (const auto& model = app_.scene().model) {
+            console_.progress(title, 1.0, fmt::format("{} triangles", model->triangles));
+            for (const auto& warning : model->warnings)
+                console_.log(LogLevel::warning, model->source + ": " + warning);
+        }
+        app_.showAll();
+        if (const auto look = options_.view.look()) app_.setView(*look);
+        if (path_) app_.setView(path_->at(path_->start()));
+        app_.animate(0.0);
+    }
+
+    /// False where a signal came first.
+    bool start(const Interrupt& interrupt) {
+        auto said = Clock::now();
+        std::string before;
+        const auto progress = [&](const std::vector<net::ServerStatus>& servers) {
+            const auto waiting = waitingFor(servers);
+            const auto now = Clock::now();
+            if (waiting.empty() || waiting == before || now - said < 2s) return;
+            console_.line("waiting for " + waiting);
+            said = now;
+            before = waiting;
+        };
+        const auto started = app_.start(progress, [&] { return !interrupt.requested(); });
+        if (interrupt.requested()) return false;
+        orThrow(Result<void>{started});
+        for (const auto& server : app_.status())
+            console_.line(fmt::format("{}: {}", server.address.name, server.description));
+        return true;
+    }
+
+    /// Seconds of the application's clock at frame @p i, 0 for the first.
+    double timeOf(std::uint64_t i, Clock::time_point begun) const {
+        if (!options_.frames) return std::chrono::duration<double>(Clock::now() - begun).count();
+        if (!path_ || *options_.frames < 2) return static_cast<double>(i) / framesPerSecond;
+        return (path_->end() - path_->start()) * static_cast<double>(i) /
+               static_cast<double>(*options_.frames - 1);
+    }
+
+    net::FrameResult frames(const Interrupt& interrupt) {
+        const auto begun = Clock::now();
+        net::FrameResult result;
+        for (std::uint64_t i = 0; !options_.frames || i < *options_.frames; ++i) {
+            const bool stop = interrupt.requested() || windowClosed();
+            const bool last = stop || (options_.frames && i + 1 == *options_.frames);
+            if (stop && options_.out.empty()) break;
+            const double time = timeOf(i, begun);
+            app_.animate(time);
+            if (path_) app_.setView(path_->at(path_->start() + time));
+            result = app_.frame(time, last && !options_.out.empty());
+            const auto now = Clock::now();
+            statistics_.add(result, app_.status(), now);
+            tell(result, i, now);
+            if (stop) break;
+        }
+        return result;
+    }
+
+    void tell(const net::FrameResult& result, std::uint64_t i, Clock::time_point now) {
+        for (const auto& name : result.droppedNow)
+            console_.log(LogLevel::warning, fmt::format("frame {} goes on without {}", i, name));
+        for (const auto& name : result.joinedNow)
+            console_.line(fmt::format("frame {}: {} takes part", i, name));
+        if (const auto line = statistics_.line(now)) console_.line(*line);
+        if (!options_.frames) return;
+        const double share = static_cast<double>(i + 1) / static_cast<double>(*options_.frames);
+        console_.progress("frames", share, fmt::format("{} of {}", i + 1, *options_.frames));
+    }
+
+    bool windowClosed() {
+        for (const auto& event : app_.takeEvents())
+            if (event.event.kind == net::EventKind::close) return true;
+        return false;
+    }
+
+    void writePictures(const net::FrameResult& last) {
+        if (last.n == 0) throw Failure{Errc::file, "no frame was shown, so there is no picture"};
+        const auto pictures = orThrow(app_.pictures(last.n, 30s));
+        for (const auto& picture : pictures) {
+            for (const auto& server : picture.missing)
+                console_.log(LogLevel::warning,
+                             fmt::format("{}: the tile of server \"{}\" is missing",
+                                         picture.screen, server));
+            const auto file = pictureFile(options_.out, pictures, picture);
+            orThrow(image::writePng(file, picture.image));
+            console_.line("wrote " + file.string());
+        }
+    }
+
+    void writeJson() {
+        std::ofstream out{options_.json};
+        out << statistics_.json(app_.status()).dump(2) << "\n";
+        out.flush();
+        if (!out)
+            throw Failure{Error{.code = Errc::file,
+                                .what = fmt::format("{}: cannot be written", options_.json.string()),
+                                .cause = {errno, std::generic_category()}}};
+    }
+
+    const RunOptions& options_;
+    Console& console_;
+    const std::optional<CameraPath> path_;  // before the servers: a broken one starts nothing
+    Application app_;
+    Statistics statistics_ = {};
+};
+
+}  // namespace
+
+int run(const RunOptions& options) {
+    Console console;
+    if (options.dryRun)
+        return dryRun(loadWall(options, console), applicationOptions(options, console), console);
+    return Runner{options, console}.run();
+}
+
+}  // namespace gnomon::client

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "ViewOptions.h"
+
+#include <gnomon/client/Application.h>
+
+#include <filesystem>
+
+namespace gnomon::client {
+
+/// The command line of `gnomon run`.
+struct RunOptions {
+    std::filesystem::path config = {};
+    std::filesystem::path scene = {};  ///< empty: an empty scene
+    std::optional<std::uint64_t> frames = {};
+    std::filesystem::path path = {};
+    ViewArguments view = {};
+    std::vector<LightOption> lights = {};
+    ShadowArguments shadow = {};
+    std::string backend = "auto";
+    bool local = false;
+    std::optional<config::Cells> tile = {};
+    std::filesystem::path out = {};
+    std::filesystem::path json = {};
+    bool dryRun = false;
+};
+
+/// @throws Failure
+int run(const RunOptions& options);
+
+}  // namespace gnomon::client

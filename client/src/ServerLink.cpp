@@ -1,0 +1,134 @@
+#include "ServerLink.h"
+
+#include <fmt/format.h>
+
+#include <gnomon/shadow_fit/ShadowFitter.h>
+
+#include <algorithm>
+#include <thread>
+
+namespace gnomon::client {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+std::chrono::milliseconds milliseconds(double seconds) {
+    return std::chrono::milliseconds{static_cast<std::int64_t>(seconds * 1000.0)};
+}
+
+net::SyncOptions syncOptions(const config::Sync& sync) {
+    net::SyncOptions options;
+    options.timeout = milliseconds(sync.timeout);
+    options.startTimeout = milliseconds(sync.startTimeout);
+    options.waitForLate = sync.onTimeout == config::OnTimeout::wait;
+    options.pipeline = sync.pipeline;
+    return options;
+}
+
+/// Lets one line through at a time, whatever thread it comes from.
+LogCallback oneAtATime(LogCallback log) {
+    if (!log) return [](LogLevel, const std::string&) {};
+    return [log = std::move(log), mutex = std::make_shared<std::mutex>()](
+               LogLevel level, const std::string& line) {
+        const std::lock_guard lock{*mutex};
+        log(level, line);
+    };
+}
+
+}  // namespace
+
+ServerLink::ServerLink(const config::Config& config, const field::TypeRegistry& types,
+                       const ApplicationOptions& options)
+    : log_{oneAtATime(options.log)}, sync_{syncOptions(config.sync)}, hub_{types, sync_, hooks()} {
+    for (const auto& server : config.servers)
+        if (!config::isLocal(server.host))
+            remote_.push_back({.name = server.name,
+                               .host = server.host,
+                               .port = static_cast<std::uint16_t>(server.port)});
+    LauncherOptions launch;
+    launch.commands = launchCommands(config, options.server, options.backend,
+                                     std::max(1U, std::thread::hardware_concurrency()));
+    launch.log = log_;
+    launch.listening = [this](const std::string& server, std::uint16_t port) {
+        const std::lock_guard lock{mutex_};
+        listening_.push_back({.name = server, .host = "127.0.0.1", .port = port});
+        listens_.notify_all();
+    };
+    local_ = launch.commands.size();
+    if (local_ > 0) launcher_ = std::make_unique<Launcher>(std::move(launch));
+}
+
+ServerLink::~ServerLink() { shutdown(); }
+
+net::HubHooks ServerLink::hooks() const {
+    net::HubHooks hooks;
+    const auto log = log_;
+    const auto fitter = std::make_shared<shadow_fit::ShadowFitter>(
+        [log](const std::string& text) { log(LogLevel::warning, text); });
+    hooks.prepare = [fitter](field::Aspect& session, const field::Applied& applied,
+                             std::uint64_t) { fitter->update(session, applied); };
+    hooks.log = [log](net::LogLevel level, const std::string& text) { log(level, text); };
+    return hooks;
+}
+
+void ServerLink::connectNew() {
+    std::vector<net::ServerAddress> fresh;
+    {
+        const std::lock_guard lock{mutex_};
+        fresh.swap(listening_);
+    }
+    for (auto& address : fresh) {
+        listened_.insert(address.name);
+        hub_.connect(std::move(address));
+    }
+}
+
+Result<void> ServerLink::start(field::ChangeList everything,
+                               const Application::StatusCallback& progress,
+                               const std::function<bool()>& keepGoing) {
+    const auto deadline = Clock::now() + sync_.startTimeout;
+    hub_.frame(std::move(everything), 0.0);
+    for (const auto& address : remote_) hub_.connect(address);
+    while (true) {
+        connectNew();
+        if (launcher_) {
+            if (auto healthy = launcher_->health(); !healthy) return healthy;
+        }
+        if (keepGoing && !keepGoing()) return fail(Errc::timeout, "given up while starting");
+        const auto slice = Clock::now() + 100ms;
+        const auto joined = hub_.waitForAll(progress, slice);
+        if (joined && listened_.size() >= local_) break;
+        if (Clock::now() >= deadline) return joined ? silentServers() : joined;
+        if (!joined) continue;
+        // Everybody known takes part; the others have not said their port yet.
+        std::unique_lock lock{mutex_};
+        listens_.wait_until(lock, slice, [&] { return !listening_.empty(); });
+    }
+    if (launcher_) launcher_->startupDone();
+    return {};
+}
+
+Result<void> ServerLink::silentServers() const {
+    return fail(Errc::timeout,
+                fmt::format("{} of {} local servers did not say their port within {:.0f} s",
+                            local_ - listened_.size(), local_,
+                            std::chrono::duration<double>(sync_.startTimeout).count()));
+}
+
+net::FrameResult ServerLink::frame(field::ChangeList changes, double time, bool capture) {
+    connectNew();
+    return hub_.frame(std::move(changes), time, capture);
+}
+
+std::vector<int> ServerLink::processes() const {
+    return launcher_ ? launcher_->processes() : std::vector<int>{};
+}
+
+void ServerLink::shutdown() {
+    hub_.shutdown();
+    if (launcher_) launcher_->stop();
+}
+
+}  // namespace gnomon::client

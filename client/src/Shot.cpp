@@ -1,0 +1,364 @@
+#include "Shot.h"
+
+#include "Console.h"
+#include "LocalSession.h"
+
+#include <gnomon/client/AnimationPlayer.h>
+#include <gnomon/config/Adjust.h>
+#include <gnomon/config/Layout.h>
+#include <gnomon/config/Load.h>
+#include <gnomon/image/Pgm.h>
+#include <gnomon/image/Png.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <optional>
+
+namespace gnomon::client {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using field::Ref;
+
+constexpr int warmUpFrames = 3;
+constexpr std::array<int, 2> defaultSize{1024, 1024};
+constexpr double defaultFovy = 1.0471975511965976;  // 60 degrees
+
+double milliseconds(Clock::duration d) {
+    return std::chrono::duration<double, std::milli>(d).count();
+}
+
+/// One picture to write: a viewport of a window.
+struct Part {
+    std::filesystem::path file = {};
+    int x = 0;
+    int width = 0;
+    std::size_t screen = 0;  ///< of the wall
+};
+struct Shown {
+    Ref<scene::Window> window = {};
+    std::vector<Part> parts = {};
+};
+
+std::filesystem::path withSuffix(const std::filesystem::path& file, const std::string& suffix) {
+    auto named = file;
+    named.replace_filename(file.stem().string() + suffix + file.extension().string());
+    return named;
+}
+
+image::Image columns(const image::Image& whole, int x, int width) {
+    if (x == 0 && width == whole.width) return whole;
+    image::Image part = image::blank(width, whole.height, whole.channels);
+    const auto from = static_cast<std::ptrdiff_t>(whole.width) * whole.channels;
+    const auto to = static_cast<std::ptrdiff_t>(width) * whole.channels;
+    for (int y = 0; y < whole.height; ++y)
+        std::copy_n(whole.pixels.begin() + y * from + static_cast<std::ptrdiff_t>(x) * whole.channels,
+                    to, part.pixels.begin() + y * to);
+    return part;
+}
+
+/// Black where no tile of the screen is: behind bezels.
+void blackenBezels(const config::Config& wall, std::size_t screen, image::Image& picture) {
+    const config::Canvas canvas = orThrow(config::canvas(wall, screen));
+    if (canvas.gap[0] <= 0 && canvas.gap[1] <= 0) return;
+    const auto shown = [&](int at, int axis) {
+        const auto i = static_cast<std::size_t>(axis);
+        return at % (canvas.tileSize[i] + std::max(canvas.gap[i], 0)) < canvas.tileSize[i];
+    };
+    auto pixel = picture.pixels.begin();
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x, pixel += picture.channels)
+            if (!shown(x, 0) || !shown(y, 1)) std::fill_n(pixel, picture.channels, std::uint8_t{0});
+}
+
+/// Makes a still scene move, by less than can be seen: everything that casts, and the lights.
+class Nudge {
+public:
+    Nudge(field::Aspect& aspect, SceneTree& tree, std::vector<Ref<scene::Node>> lights)
+        : aspect_{aspect}, lights_{std::move(lights)} {
+        const auto& core = aspect.create<scene::Transform>();
+        insertAboveContent(aspect, tree, "nudge", core);
+        casters_ = core;
+    }
+    void step() {
+        ++count_;
+        const double by = (count_ % 2 == 0 ? 1e-9 : -1e-9) * static_cast<double>(count_);
+        edit(*aspect_.get(casters_))->matrix = math::Affine{.translation = {0.0, by, 0.0}};
+        for (const auto& ref : lights_) {
+            const scene::Node* node = aspect_.get(ref);
+            const auto* light = node == nullptr ? nullptr : aspect_.get(Ref<scene::Light>{node->core->id});
+            const scene::Node* beacon = light == nullptr ? nullptr : aspect_.get(light->beacon.get());
+            const auto* place = beacon == nullptr ? nullptr
+                                                  : aspect_.get(Ref<scene::Transform>{beacon->core->id});
+            if (place == nullptr) continue;
+            math::Affine matrix = place->matrix;
+            matrix.translation.y += by;
+            edit(*place)->matrix = matrix;
+        }
+    }
+
+private:
+    field::Aspect& aspect_;
+    std::vector<Ref<scene::Node>> lights_;
+    Ref<scene::Transform> casters_ = {};
+    std::int64_t count_ = 0;
+};
+
+class Shot {
+public:
+    explicit Shot(const ShotOptions& options)
+        : options_{options},
+          session_{options.backend, [this](const std::string& t) { console_.log(LogLevel::warning, t); }} {}
+
+    int take();
+
+private:
+    void load();
+    void lookFreely();
+    void lookAsWall();
+    void time();
+    void writePictures();
+    void writeFactor();
+    void writeJson() const;
+    render::FrameStatistics draw();
+
+    const ShotOptions& options_;
+    Console console_;
+    LocalSession session_;
+    PreparedScene scene_ = {};
+    std::vector<Shown> shown_ = {};
+    std::optional<config::Config> wall_ = {};
+    std::string technique_ = "std";
+    int mapSize_ = 0;
+    render::FrameStatistics last_ = {};
+    render::FrameStatistics passes_ = {};
+    std::vector<double> frameMs_ = {};
+};
+
+void Shot::load() {
+    auto prepared = prepareScene(session_.aspect(),
+                                 {.file = options_.scene,
+                                  .lights = options_.lights,
+                                  .progress = [&](double share, const std::string& what) {
+                                      console_.progress("loading", share, what);
+                                  }});
+    scene_ = orThrow(std::move(prepared));
+    if (!scene_.model) return;
+    for (const auto& warning : scene_.model->warnings) console_.log(LogLevel::warning, warning);
+    AnimationPlayer player;
+    player.play(session_.aspect(), *scene_.model);
+    player.animate(session_.aspect(), options_.animationTime);
+}
+
+void Shot::lookFreely() {
+    field::Aspect& aspect = session_.aspect();
+    const auto size = options_.view.size.value_or(defaultSize);
+    const double shape = static_cast<double>(size[0]) / size[1];
+    const auto fallback = defaultView(aspect, scene_, opening(options_.view.fovy.value_or(defaultFovy), shape));
+    const auto given = options_.view.look();
+    const Look look = given.value_or(fallback.look);
+    const double fovy =
+        options_.view.fovy.value_or(given ? defaultFovy : fallback.fovy.value_or(defaultFovy));
+    DepthRange range = depthRange(scene_.bounds, look.eye);
+    range.near = options_.view.near.value_or(range.near);
+    range.far = options_.view.far.value_or(range.far);
+    const auto& camera = addCamera(aspect, scene_.tree, look, fovy, range);
+
+    config::Shadow shadow;
+    options_.shadow.apply(shadow);
+    technique_ = shadow.technique;
+    mapSize_ = static_cast<int>(shadow.mapSize);
+    const auto& viewport = aspect.create<scene::ShadowViewport>();
+    const auto& sky = aspect.create<scene::GradientBackground>();
+    edit(sky)->stops.assign({math::vec4{0.72F, 0.79F, 0.86F, 0.0F}, math::vec4{0.16F, 0.33F, 0.62F, 1.0F}});
+    {
+        auto e = edit(viewport);
+        e->camera = camera;
+        e->root = scene_.tree.root;
+        e->background = sky;
+        e->technique = technique_;
+        e->mapSize = mapSize_;
+    }
+    const auto& window = aspect.create<scene::Window>();
+    auto e = edit(window);
+    e->server = "shot";
+    e->size = glm::ivec2{size[0], size[1]};
+    e->samples = options_.samples;
+    e->viewports.pushBack(viewport);
+    shown_.push_back({.window = window, .parts = {{.file = options_.out, .width = size[0]}}});
+}
+
+void Shot::lookAsWall() {
+    config::Config wall = orThrow(config::loadConfig(options_.wall));
+    if (options_.tile) wall = orThrow(config::withTileSize(wall, (*options_.tile)[0], (*options_.tile)[1]));
+    if (options_.view.near) wall.render.near = options_.view.near;
+    if (options_.view.far) wall.render.far = options_.view.far;
+    options_.shadow.apply(wall.shadow);
+    technique_ = wall.shadow.technique;
+    mapSize_ = static_cast<int>(wall.shadow.mapSize);
+    field::Aspect& aspect = session_.aspect();
+    const Look look = options_.view.look().value_or(
+        defaultView(aspect, scene_, wallOpening(wall), wallDistance(wall)).look);
+    for (std::size_t i = 0; i < wall.screens.size(); ++i) {
+        // Both eyes always: the fit of a screen's shadows knows both.
+        const auto eyes = eyesOf(wall, i);
+        if (eyes.empty()) continue;
+        const auto whole = orThrow(
+            buildWholeScreen(aspect, wall, i, eyes, scene_.tree.root, "shot"));
+        setView(aspect, whole, wall, look);
+        setDepthRange(aspect, whole, wall, depthRange(scene_.bounds, look.eye));
+        Shown shown{.window = whole.windows.front()};
+        const int width = aspect.get(shown.window)->size->x / static_cast<int>(eyes.size());
+        for (std::size_t k = 0; k < eyes.size(); ++k) {
+            std::string suffix;
+            if (wall.screens.size() > 1) suffix += "-" + wall.screens[i].name;
+            const bool chosen = options_.eyeSide.has_value();
+            if (chosen && eyes[k] != *options_.eyeSide && eyes[k] != config::Eye::mono) continue;
+            if (!chosen && eyes[k] != config::Eye::mono)
+                suffix += eyes[k] == config::Eye::left ? "-left" : "-right";
+            shown.parts.push_back({.file = options_.out.empty() ? options_.out : withSuffix(options_.out, suffix),
+                                   .x = static_cast<int>(k) * width,
+                                   .width = width,
+                                   .screen = i});
+        }
+        shown_.push_back(std::move(shown));
+    }
+    wall_ = std::move(wall);
+}
+
+render::FrameStatistics Shot::draw() {
+    render::FrameStatistics sum;
+    for (const Shown& shown : shown_) {
+        const auto one = orThrow(session_.renderer().draw(session_.rendered(shown.window), 0.0));
+        sum.triangles += one.triangles + one.shadowTriangles;
+        sum.pagesDrawn += one.pagesDrawn;
+        sum.pagesKept += one.pagesKept;
+        sum.mapTexels += one.mapTexels;
+        sum.mapBytes = one.mapBytes;
+        sum.degenerate += one.degenerate;
+        sum.shadowMs += one.shadowMs;
+        sum.colorMs += one.colorMs;
+        sum.overlayMs += one.overlayMs;
+    }
+    session_.renderer().finish();
+    return sum;
+}
+
+void Shot::time() {
+    std::optional<Nudge> nudge;
+    if (options_.dynamic)
+        nudge.emplace(session_.aspect(), scene_.tree, activeLights(session_.aspect(), scene_));
+    const auto step = [&] {
+        if (!nudge) return;
+        nudge->step();
+        session_.commit();
+    };
+    for (int i = 0; i < warmUpFrames; ++i) {
+        step();
+        draw();
+    }
+    for (int i = 0; i < options_.frames; ++i) {
+        const auto begin = Clock::now();
+        step();
+        last_ = draw();
+        frameMs_.push_back(milliseconds(Clock::now() - begin));
+        console_.progress("frames", (i + 1.0) / options_.frames, "");
+    }
+    // Pass times apart: a glFinish after each pass would slow the frames themselves.
+    std::vector<render::FrameStatistics> passes;
+    session_.renderer().measurePasses(true);
+    for (int i = 0; i < std::clamp(options_.frames / 4, 1, 10); ++i) {
+        step();
+        passes.push_back(draw());
+    }
+    session_.renderer().measurePasses(false);
+    const auto median = [&](double render::FrameStatistics::*member) {
+        std::vector<double> values;
+        for (const auto& pass : passes) values.push_back(pass.*member);
+        std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+        return values[values.size() / 2];
+    };
+    passes_.shadowMs = median(&render::FrameStatistics::shadowMs);
+    passes_.colorMs = median(&render::FrameStatistics::colorMs);
+    passes_.overlayMs = median(&render::FrameStatistics::overlayMs);
+}
+
+void Shot::writePictures() {
+    if (options_.out.empty()) return;
+    for (const Shown& shown : shown_) {
+        const image::Image whole = session_.renderer().read(session_.rendered(shown.window));
+        for (const Part& part : shown.parts) {
+            image::Image picture = columns(whole, part.x, part.width);
+            if (wall_) blackenBezels(*wall_, part.screen, picture);
+            orThrow(image::writePng(part.file, picture));
+            console_.line("wrote " + part.file.string());
+        }
+    }
+}
+
+void Shot::writeFactor() {
+    if (options_.shadowFactor.empty()) return;
+    const auto lights = activeLights(session_.aspect(), scene_);
+    const auto index = static_cast<std::size_t>(options_.light);
+    if (index >= lights.size())
+        throw Failure{Errc::config, "--light " + std::to_string(options_.light) + ": the scene has " +
+                                        std::to_string(lights.size()) + " light(s) that are on"};
+    const auto factor = session_.renderer().shadowFactor(session_.rendered(shown_.front().window), 0,
+                                                         lights[index]);
+    orThrow(image::writePgm(options_.shadowFactor, orThrow(Result<image::Image>{factor})));
+    console_.line("wrote " + options_.shadowFactor.string());
+}
+
+void Shot::writeJson() const {
+    if (options_.json.empty() && frameMs_.empty()) return;
+    auto sorted = frameMs_;
+    std::sort(sorted.begin(), sorted.end());
+    nlohmann::ordered_json json{{"technique", technique_},
+                                {"map_size", mapSize_},
+                                {"renderer", session_.context().renderer()}};
+    if (!sorted.empty()) {
+        json["frame_ms"] = {{"median", sorted[sorted.size() / 2]},
+                            {"min", sorted.front()},
+                            {"max", sorted.back()}};
+        json["pass_ms"] = {{"shadow", passes_.shadowMs},
+                           {"color", passes_.colorMs},
+                           {"overlay", passes_.overlayMs}};
+    }
+    json["triangles"] = last_.triangles;
+    json["map_texels"] = last_.mapTexels;
+    json["map_bytes"] = last_.mapBytes;
+    json["pages_drawn"] = last_.pagesDrawn;
+    json["pages_kept"] = last_.pagesKept;
+    json["degenerate"] = last_.degenerate;
+    if (options_.json.empty()) {
+        std::fputs((json.dump(2) + "\n").c_str(), stdout);
+        return;
+    }
+    std::ofstream file{options_.json};
+    file << json.dump(2) << '\n';
+    file.close();
+    if (!file) throw Failure{Errc::file, "cannot write " + options_.json.string()};
+}
+
+int Shot::take() {
+    load();
+    if (options_.wall.empty())
+        lookFreely();
+    else
+        lookAsWall();
+    session_.commit();
+    last_ = draw();
+    writePictures();
+    writeFactor();
+    if (options_.frames > 0) time();
+    writeJson();
+    return 0;
+}
+
+}  // namespace
+
+int takeShot(const ShotOptions& options) { return Shot{options}.take(); }
+
+}  // namespace gnomon::client

@@ -1,0 +1,57 @@
+#include "KeyParts.h"
+
+namespace gnomon::config {
+namespace {
+
+// The text after a string that starts @p text with a quote; TOML's four kinds of string.
+std::string_view afterString(std::string_view text) {
+    const char quote = text.front();
+    const bool escapes = quote == '"';
+    const bool isMultiline = text.size() >= 3 && text[1] == quote && text[2] == quote;
+    text.remove_prefix(isMultiline ? 3 : 1);
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (escapes && text[i] == '\\') {
+            ++i;
+        } else if (text[i] == '\n' && !isMultiline) {
+            return text.substr(i);  // not closed: the parser will complain here
+        } else if (text[i] == quote) {
+            if (!isMultiline) return text.substr(i + 1);
+            if (text.substr(i, 3) == std::string_view{quote == '"' ? "\"\"\"" : "'''"}) {
+                return text.substr(i + 3);
+            }
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+std::optional<Place> keyOfManyParts(std::string_view text) {
+    const std::string_view whole = text;
+    int parts = 1;
+    while (!text.empty()) {
+        const char c = text.front();
+        if (c == '"' || c == '\'') {
+            text = afterString(text);
+            continue;
+        }
+        if (c == '#') {
+            const std::size_t end = text.find('\n');
+            text = end == std::string_view::npos ? std::string_view{} : text.substr(end);
+            continue;
+        }
+        if (c == '\n' || c == '=' || c == ',' || c == '[' || c == '{') parts = 1;
+        if (c == '.' && ++parts > maxKeyParts) {
+            Place place{.line = 1, .column = 1};
+            for (const char before : whole.substr(0, whole.size() - text.size())) {
+                place.column = before == '\n' ? 1 : place.column + 1;
+                place.line += before == '\n' ? 1 : 0;
+            }
+            return place;
+        }
+        text.remove_prefix(1);
+    }
+    return {};
+}
+
+}  // namespace gnomon::config

@@ -1,0 +1,328 @@
+#pragma once
+
+/// The OpenGL 4.5 core entry points Gnomon uses, listed once: X(Name, NAME) for `glName`, whose
+/// type is `PFNGLNAMEPROC`. To use another one, add it here.
+// clang-format off
+#define GNOMON_GL_FUNCTIONS(X)                                                                     \
+    /* Buffers */                                                                                  \
+    X(CreateBuffers, CREATEBUFFERS)                                                                \
+    X(DeleteBuffers, DELETEBUFFERS)                                                                \
+    X(NamedBufferStorage, NAMEDBUFFERSTORAGE)                                                      \
+    X(NamedBufferData, NAMEDBUFFERDATA)                                                            \
+    X(NamedBufferSubData, NAMEDBUFFERSUBDATA)                                                      \
+    X(GetNamedBufferSubData, GETNAMEDBUFFERSUBDATA)                                                \
+    X(MapNamedBuffer, MAPNAMEDBUFFER)                                                              \
+    X(MapNamedBufferRange, MAPNAMEDBUFFERRANGE)                                                    \
+    X(UnmapNamedBuffer, UNMAPNAMEDBUFFER)                                                          \
+    X(FlushMappedNamedBufferRange, FLUSHMAPPEDNAMEDBUFFERRANGE)                                    \
+    X(CopyNamedBufferSubData, COPYNAMEDBUFFERSUBDATA)                                              \
+    X(ClearNamedBufferData, CLEARNAMEDBUFFERDATA)                                                  \
+    X(ClearNamedBufferSubData, CLEARNAMEDBUFFERSUBDATA)                                            \
+    X(InvalidateBufferData, INVALIDATEBUFFERDATA)                                                  \
+    X(BindBuffer, BINDBUFFER)                                                                      \
+    X(BindBufferBase, BINDBUFFERBASE)                                                              \
+    X(BindBufferRange, BINDBUFFERRANGE)                                                            \
+    X(BindBuffersBase, BINDBUFFERSBASE)                                                            \
+    X(BindBuffersRange, BINDBUFFERSRANGE)                                                          \
+    X(GetNamedBufferParameteriv, GETNAMEDBUFFERPARAMETERIV)                                        \
+    X(GetNamedBufferParameteri64v, GETNAMEDBUFFERPARAMETERI64V)                                    \
+    /* Textures */                                                                                 \
+    X(GenTextures, GENTEXTURES)                                                                    \
+    X(CreateTextures, CREATETEXTURES)                                                              \
+    X(DeleteTextures, DELETETEXTURES)                                                              \
+    X(IsTexture, ISTEXTURE)                                                                        \
+    X(TextureStorage1D, TEXTURESTORAGE1D)                                                          \
+    X(TextureStorage2D, TEXTURESTORAGE2D)                                                          \
+    X(TextureStorage3D, TEXTURESTORAGE3D)                                                          \
+    X(TextureStorage2DMultisample, TEXTURESTORAGE2DMULTISAMPLE)                                    \
+    X(TextureStorage3DMultisample, TEXTURESTORAGE3DMULTISAMPLE)                                    \
+    X(TextureSubImage1D, TEXTURESUBIMAGE1D)                                                        \
+    X(TextureSubImage2D, TEXTURESUBIMAGE2D)                                                        \
+    X(TextureSubImage3D, TEXTURESUBIMAGE3D)                                                        \
+    X(CompressedTextureSubImage2D, COMPRESSEDTEXTURESUBIMAGE2D)                                    \
+    X(CompressedTextureSubImage3D, COMPRESSEDTEXTURESUBIMAGE3D)                                    \
+    X(CopyTextureSubImage2D, COPYTEXTURESUBIMAGE2D)                                                \
+    X(CopyImageSubData, COPYIMAGESUBDATA)                                                          \
+    X(TextureBuffer, TEXTUREBUFFER)                                                                \
+    X(TextureBufferRange, TEXTUREBUFFERRANGE)                                                      \
+    X(TextureView, TEXTUREVIEW)                                                                    \
+    X(TextureParameteri, TEXTUREPARAMETERI)                                                        \
+    X(TextureParameterf, TEXTUREPARAMETERF)                                                        \
+    X(TextureParameteriv, TEXTUREPARAMETERIV)                                                      \
+    X(TextureParameterfv, TEXTUREPARAMETERFV)                                                      \
+    X(TextureParameterIiv, TEXTUREPARAMETERIIV)                                                    \
+    X(TextureParameterIuiv, TEXTUREPARAMETERIUIV)                                                  \
+    X(GenerateTextureMipmap, GENERATETEXTUREMIPMAP)                                                \
+    X(BindTextureUnit, BINDTEXTUREUNIT)                                                            \
+    X(BindTextures, BINDTEXTURES)                                                                  \
+    X(BindImageTexture, BINDIMAGETEXTURE)                                                          \
+    X(BindImageTextures, BINDIMAGETEXTURES)                                                        \
+    X(GetTextureImage, GETTEXTUREIMAGE)                                                            \
+    X(GetTextureSubImage, GETTEXTURESUBIMAGE)                                                      \
+    X(GetTextureParameteriv, GETTEXTUREPARAMETERIV)                                                \
+    X(GetTextureLevelParameteriv, GETTEXTURELEVELPARAMETERIV)                                      \
+    X(GetInternalformativ, GETINTERNALFORMATIV)                                                    \
+    X(ClearTexImage, CLEARTEXIMAGE)                                                                \
+    X(ClearTexSubImage, CLEARTEXSUBIMAGE)                                                          \
+    X(InvalidateTexImage, INVALIDATETEXIMAGE)                                                      \
+    X(TextureBarrier, TEXTUREBARRIER)                                                              \
+    /* Samplers */                                                                                 \
+    X(CreateSamplers, CREATESAMPLERS)                                                              \
+    X(DeleteSamplers, DELETESAMPLERS)                                                              \
+    X(SamplerParameteri, SAMPLERPARAMETERI)                                                        \
+    X(SamplerParameterf, SAMPLERPARAMETERF)                                                        \
+    X(SamplerParameteriv, SAMPLERPARAMETERIV)                                                      \
+    X(SamplerParameterfv, SAMPLERPARAMETERFV)                                                      \
+    X(BindSampler, BINDSAMPLER)                                                                    \
+    X(BindSamplers, BINDSAMPLERS)                                                                  \
+    /* Framebuffers and renderbuffers */                                                           \
+    X(CreateFramebuffers, CREATEFRAMEBUFFERS)                                                      \
+    X(DeleteFramebuffers, DELETEFRAMEBUFFERS)                                                      \
+    X(BindFramebuffer, BINDFRAMEBUFFER)                                                            \
+    X(CheckNamedFramebufferStatus, CHECKNAMEDFRAMEBUFFERSTATUS)                                    \
+    X(NamedFramebufferTexture, NAMEDFRAMEBUFFERTEXTURE)                                            \
+    X(NamedFramebufferTextureLayer, NAMEDFRAMEBUFFERTEXTURELAYER)                                  \
+    X(NamedFramebufferRenderbuffer, NAMEDFRAMEBUFFERRENDERBUFFER)                                  \
+    X(NamedFramebufferParameteri, NAMEDFRAMEBUFFERPARAMETERI)                                      \
+    X(NamedFramebufferDrawBuffer, NAMEDFRAMEBUFFERDRAWBUFFER)                                      \
+    X(NamedFramebufferDrawBuffers, NAMEDFRAMEBUFFERDRAWBUFFERS)                                    \
+    X(NamedFramebufferReadBuffer, NAMEDFRAMEBUFFERREADBUFFER)                                      \
+    X(GetNamedFramebufferAttachmentParameteriv, GETNAMEDFRAMEBUFFERATTACHMENTPARAMETERIV)          \
+    X(ClearNamedFramebufferfv, CLEARNAMEDFRAMEBUFFERFV)                                            \
+    X(ClearNamedFramebufferiv, CLEARNAMEDFRAMEBUFFERIV)                                            \
+    X(ClearNamedFramebufferuiv, CLEARNAMEDFRAMEBUFFERUIV)                                          \
+    X(ClearNamedFramebufferfi, CLEARNAMEDFRAMEBUFFERFI)                                            \
+    X(BlitNamedFramebuffer, BLITNAMEDFRAMEBUFFER)                                                  \
+    X(InvalidateNamedFramebufferData, INVALIDATENAMEDFRAMEBUFFERDATA)                              \
+    X(InvalidateNamedFramebufferSubData, INVALIDATENAMEDFRAMEBUFFERSUBDATA)                        \
+    X(CreateRenderbuffers, CREATERENDERBUFFERS)                                                    \
+    X(DeleteRenderbuffers, DELETERENDERBUFFERS)                                                    \
+    X(NamedRenderbufferStorage, NAMEDRENDERBUFFERSTORAGE)                                          \
+    X(NamedRenderbufferStorageMultisample, NAMEDRENDERBUFFERSTORAGEMULTISAMPLE)                    \
+    X(GetNamedRenderbufferParameteriv, GETNAMEDRENDERBUFFERPARAMETERIV)                            \
+    /* Vertex arrays */                                                                            \
+    X(CreateVertexArrays, CREATEVERTEXARRAYS)                                                      \
+    X(DeleteVertexArrays, DELETEVERTEXARRAYS)                                                      \
+    X(BindVertexArray, BINDVERTEXARRAY)                                                            \
+    X(VertexArrayVertexBuffer, VERTEXARRAYVERTEXBUFFER)                                            \
+    X(VertexArrayVertexBuffers, VERTEXARRAYVERTEXBUFFERS)                                          \
+    X(VertexArrayElementBuffer, VERTEXARRAYELEMENTBUFFER)                                          \
+    X(VertexArrayAttribFormat, VERTEXARRAYATTRIBFORMAT)                                            \
+    X(VertexArrayAttribIFormat, VERTEXARRAYATTRIBIFORMAT)                                          \
+    X(VertexArrayAttribLFormat, VERTEXARRAYATTRIBLFORMAT)                                          \
+    X(VertexArrayAttribBinding, VERTEXARRAYATTRIBBINDING)                                          \
+    X(VertexArrayBindingDivisor, VERTEXARRAYBINDINGDIVISOR)                                        \
+    X(EnableVertexArrayAttrib, ENABLEVERTEXARRAYATTRIB)                                            \
+    X(DisableVertexArrayAttrib, DISABLEVERTEXARRAYATTRIB)                                          \
+    X(VertexAttrib1f, VERTEXATTRIB1F)                                                              \
+    X(VertexAttrib2f, VERTEXATTRIB2F)                                                              \
+    X(VertexAttrib3f, VERTEXATTRIB3F)                                                              \
+    X(VertexAttrib4f, VERTEXATTRIB4F)                                                              \
+    X(VertexAttrib4fv, VERTEXATTRIB4FV)                                                            \
+    X(VertexAttribI4i, VERTEXATTRIBI4I)                                                            \
+    X(VertexAttribI4ui, VERTEXATTRIBI4UI)                                                          \
+    /* Shaders */                                                                                  \
+    X(CreateShader, CREATESHADER)                                                                  \
+    X(DeleteShader, DELETESHADER)                                                                  \
+    X(ShaderSource, SHADERSOURCE)                                                                  \
+    X(CompileShader, COMPILESHADER)                                                                \
+    X(GetShaderiv, GETSHADERIV)                                                                    \
+    X(GetShaderInfoLog, GETSHADERINFOLOG)                                                          \
+    X(GetShaderSource, GETSHADERSOURCE)                                                            \
+    X(AttachShader, ATTACHSHADER)                                                                  \
+    X(DetachShader, DETACHSHADER)                                                                  \
+    /* Programs */                                                                                 \
+    X(CreateProgram, CREATEPROGRAM)                                                                \
+    X(DeleteProgram, DELETEPROGRAM)                                                                \
+    X(LinkProgram, LINKPROGRAM)                                                                    \
+    X(UseProgram, USEPROGRAM)                                                                      \
+    X(ValidateProgram, VALIDATEPROGRAM)                                                            \
+    X(ProgramParameteri, PROGRAMPARAMETERI)                                                        \
+    X(GetProgramiv, GETPROGRAMIV)                                                                  \
+    X(GetProgramInfoLog, GETPROGRAMINFOLOG)                                                        \
+    X(GetProgramBinary, GETPROGRAMBINARY)                                                          \
+    X(ProgramBinary, PROGRAMBINARY)                                                                \
+    X(BindAttribLocation, BINDATTRIBLOCATION)                                                      \
+    X(BindFragDataLocation, BINDFRAGDATALOCATION)                                                  \
+    X(GetAttribLocation, GETATTRIBLOCATION)                                                        \
+    X(GetFragDataLocation, GETFRAGDATALOCATION)                                                    \
+    X(GetUniformLocation, GETUNIFORMLOCATION)                                                      \
+    X(GetUniformBlockIndex, GETUNIFORMBLOCKINDEX)                                                  \
+    X(GetActiveUniform, GETACTIVEUNIFORM)                                                          \
+    X(GetActiveUniformBlockiv, GETACTIVEUNIFORMBLOCKIV)                                            \
+    X(GetProgramInterfaceiv, GETPROGRAMINTERFACEIV)                                                \
+    X(GetProgramResourceIndex, GETPROGRAMRESOURCEINDEX)                                            \
+    X(GetProgramResourceLocation, GETPROGRAMRESOURCELOCATION)                                      \
+    X(GetProgramResourceName, GETPROGRAMRESOURCENAME)                                              \
+    X(GetProgramResourceiv, GETPROGRAMRESOURCEIV)                                                  \
+    X(UniformBlockBinding, UNIFORMBLOCKBINDING)                                                    \
+    X(ShaderStorageBlockBinding, SHADERSTORAGEBLOCKBINDING)                                        \
+    /* Uniforms */                                                                                 \
+    X(ProgramUniform1i, PROGRAMUNIFORM1I)                                                          \
+    X(ProgramUniform2i, PROGRAMUNIFORM2I)                                                          \
+    X(ProgramUniform3i, PROGRAMUNIFORM3I)                                                          \
+    X(ProgramUniform4i, PROGRAMUNIFORM4I)                                                          \
+    X(ProgramUniform1iv, PROGRAMUNIFORM1IV)                                                        \
+    X(ProgramUniform2iv, PROGRAMUNIFORM2IV)                                                        \
+    X(ProgramUniform3iv, PROGRAMUNIFORM3IV)                                                        \
+    X(ProgramUniform4iv, PROGRAMUNIFORM4IV)                                                        \
+    X(ProgramUniform1ui, PROGRAMUNIFORM1UI)                                                        \
+    X(ProgramUniform2ui, PROGRAMUNIFORM2UI)                                                        \
+    X(ProgramUniform3ui, PROGRAMUNIFORM3UI)                                                        \
+    X(ProgramUniform4ui, PROGRAMUNIFORM4UI)                                                        \
+    X(ProgramUniform1uiv, PROGRAMUNIFORM1UIV)                                                      \
+    X(ProgramUniform2uiv, PROGRAMUNIFORM2UIV)                                                      \
+    X(ProgramUniform4uiv, PROGRAMUNIFORM4UIV)                                                      \
+    X(ProgramUniform1f, PROGRAMUNIFORM1F)                                                          \
+    X(ProgramUniform2f, PROGRAMUNIFORM2F)                                                          \
+    X(ProgramUniform3f, PROGRAMUNIFORM3F)                                                          \
+    X(ProgramUniform4f, PROGRAMUNIFORM4F)                                                          \
+    X(ProgramUniform1fv, PROGRAMUNIFORM1FV)                                                        \
+    X(ProgramUniform2fv, PROGRAMUNIFORM2FV)                                                        \
+    X(ProgramUniform3fv, PROGRAMUNIFORM3FV)                                                        \
+    X(ProgramUniform4fv, PROGRAMUNIFORM4FV)                                                        \
+    X(ProgramUniformMatrix2fv, PROGRAMUNIFORMMATRIX2FV)                                            \
+    X(ProgramUniformMatrix3fv, PROGRAMUNIFORMMATRIX3FV)                                            \
+    X(ProgramUniformMatrix4fv, PROGRAMUNIFORMMATRIX4FV)                                            \
+    X(ProgramUniformMatrix3x4fv, PROGRAMUNIFORMMATRIX3X4FV)                                        \
+    X(ProgramUniformMatrix4x3fv, PROGRAMUNIFORMMATRIX4X3FV)                                        \
+    /* Drawing and dispatch */                                                                     \
+    X(DrawArrays, DRAWARRAYS)                                                                      \
+    X(DrawArraysInstanced, DRAWARRAYSINSTANCED)                                                    \
+    X(DrawArraysInstancedBaseInstance, DRAWARRAYSINSTANCEDBASEINSTANCE)                            \
+    X(DrawArraysIndirect, DRAWARRAYSINDIRECT)                                                      \
+    X(DrawElements, DRAWELEMENTS)                                                                  \
+    X(DrawElementsInstanced, DRAWELEMENTSINSTANCED)                                                \
+    X(DrawElementsBaseVertex, DRAWELEMENTSBASEVERTEX)                                              \
+    X(DrawElementsInstancedBaseVertex, DRAWELEMENTSINSTANCEDBASEVERTEX)                            \
+    X(DrawElementsInstancedBaseVertexBaseInstance, DRAWELEMENTSINSTANCEDBASEVERTEXBASEINSTANCE)    \
+    X(DrawRangeElements, DRAWRANGEELEMENTS)                                                        \
+    X(DrawElementsIndirect, DRAWELEMENTSINDIRECT)                                                  \
+    X(MultiDrawArrays, MULTIDRAWARRAYS)                                                            \
+    X(MultiDrawElements, MULTIDRAWELEMENTS)                                                        \
+    X(MultiDrawElementsBaseVertex, MULTIDRAWELEMENTSBASEVERTEX)                                    \
+    X(MultiDrawArraysIndirect, MULTIDRAWARRAYSINDIRECT)                                            \
+    X(MultiDrawElementsIndirect, MULTIDRAWELEMENTSINDIRECT)                                        \
+    X(DispatchCompute, DISPATCHCOMPUTE)                                                            \
+    X(DispatchComputeIndirect, DISPATCHCOMPUTEINDIRECT)                                            \
+    X(MemoryBarrier, MEMORYBARRIER)                                                                \
+    X(MemoryBarrierByRegion, MEMORYBARRIERBYREGION)                                                \
+    X(PatchParameteri, PATCHPARAMETERI)                                                            \
+    X(PatchParameterfv, PATCHPARAMETERFV)                                                          \
+    /* Clearing and reading */                                                                     \
+    X(Clear, CLEAR)                                                                                \
+    X(ClearColor, CLEARCOLOR)                                                                      \
+    X(ClearDepth, CLEARDEPTH)                                                                      \
+    X(ClearDepthf, CLEARDEPTHF)                                                                    \
+    X(ClearStencil, CLEARSTENCIL)                                                                  \
+    X(ReadPixels, READPIXELS)                                                                      \
+    X(ReadnPixels, READNPIXELS)                                                                    \
+    X(PixelStorei, PIXELSTOREI)                                                                    \
+    /* State */                                                                                    \
+    X(Enable, ENABLE)                                                                              \
+    X(Disable, DISABLE)                                                                            \
+    X(Enablei, ENABLEI)                                                                            \
+    X(Disablei, DISABLEI)                                                                          \
+    X(IsEnabled, ISENABLED)                                                                        \
+    X(IsEnabledi, ISENABLEDI)                                                                      \
+    X(DepthFunc, DEPTHFUNC)                                                                        \
+    X(DepthMask, DEPTHMASK)                                                                        \
+    X(DepthRangef, DEPTHRANGEF)                                                                    \
+    X(DepthRangeIndexed, DEPTHRANGEINDEXED)                                                        \
+    X(DepthRangeArrayv, DEPTHRANGEARRAYV)                                                          \
+    X(ClipControl, CLIPCONTROL)                                                                    \
+    X(CullFace, CULLFACE)                                                                          \
+    X(FrontFace, FRONTFACE)                                                                        \
+    X(PolygonMode, POLYGONMODE)                                                                    \
+    X(PolygonOffset, POLYGONOFFSET)                                                                \
+    X(LineWidth, LINEWIDTH)                                                                        \
+    X(PointSize, POINTSIZE)                                                                        \
+    X(PrimitiveRestartIndex, PRIMITIVERESTARTINDEX)                                                \
+    X(ProvokingVertex, PROVOKINGVERTEX)                                                            \
+    X(Hint, HINT)                                                                                  \
+    X(BlendColor, BLENDCOLOR)                                                                      \
+    X(BlendFunc, BLENDFUNC)                                                                        \
+    X(BlendFunci, BLENDFUNCI)                                                                      \
+    X(BlendFuncSeparate, BLENDFUNCSEPARATE)                                                        \
+    X(BlendFuncSeparatei, BLENDFUNCSEPARATEI)                                                      \
+    X(BlendEquation, BLENDEQUATION)                                                                \
+    X(BlendEquationi, BLENDEQUATIONI)                                                              \
+    X(BlendEquationSeparate, BLENDEQUATIONSEPARATE)                                                \
+    X(BlendEquationSeparatei, BLENDEQUATIONSEPARATEI)                                              \
+    X(ColorMask, COLORMASK)                                                                        \
+    X(ColorMaski, COLORMASKI)                                                                      \
+    X(LogicOp, LOGICOP)                                                                            \
+    X(StencilFunc, STENCILFUNC)                                                                    \
+    X(StencilFuncSeparate, STENCILFUNCSEPARATE)                                                    \
+    X(StencilOp, STENCILOP)                                                                        \
+    X(StencilOpSeparate, STENCILOPSEPARATE)                                                        \
+    X(StencilMask, STENCILMASK)                                                                    \
+    X(StencilMaskSeparate, STENCILMASKSEPARATE)                                                    \
+    X(Viewport, VIEWPORT)                                                                          \
+    X(ViewportIndexedf, VIEWPORTINDEXEDF)                                                          \
+    X(ViewportIndexedfv, VIEWPORTINDEXEDFV)                                                        \
+    X(ViewportArrayv, VIEWPORTARRAYV)                                                              \
+    X(Scissor, SCISSOR)                                                                            \
+    X(ScissorIndexed, SCISSORINDEXED)                                                              \
+    X(ScissorArrayv, SCISSORARRAYV)                                                                \
+    X(SampleCoverage, SAMPLECOVERAGE)                                                              \
+    X(SampleMaski, SAMPLEMASKI)                                                                    \
+    X(MinSampleShading, MINSAMPLESHADING)                                                          \
+    /* Queries and synchronisation */                                                              \
+    X(CreateQueries, CREATEQUERIES)                                                                \
+    X(DeleteQueries, DELETEQUERIES)                                                                \
+    X(BeginQuery, BEGINQUERY)                                                                      \
+    X(BeginQueryIndexed, BEGINQUERYINDEXED)                                                        \
+    X(EndQuery, ENDQUERY)                                                                          \
+    X(EndQueryIndexed, ENDQUERYINDEXED)                                                            \
+    X(QueryCounter, QUERYCOUNTER)                                                                  \
+    X(GetQueryiv, GETQUERYIV)                                                                      \
+    X(GetQueryObjectiv, GETQUERYOBJECTIV)                                                          \
+    X(GetQueryObjectuiv, GETQUERYOBJECTUIV)                                                        \
+    X(GetQueryObjecti64v, GETQUERYOBJECTI64V)                                                      \
+    X(GetQueryObjectui64v, GETQUERYOBJECTUI64V)                                                    \
+    X(GetQueryBufferObjectuiv, GETQUERYBUFFEROBJECTUIV)                                            \
+    X(GetQueryBufferObjectui64v, GETQUERYBUFFEROBJECTUI64V)                                        \
+    X(BeginConditionalRender, BEGINCONDITIONALRENDER)                                              \
+    X(EndConditionalRender, ENDCONDITIONALRENDER)                                                  \
+    X(FenceSync, FENCESYNC)                                                                        \
+    X(ClientWaitSync, CLIENTWAITSYNC)                                                              \
+    X(WaitSync, WAITSYNC)                                                                          \
+    X(DeleteSync, DELETESYNC)                                                                      \
+    X(GetSynciv, GETSYNCIV)                                                                        \
+    X(Flush, FLUSH)                                                                                \
+    X(Finish, FINISH)                                                                              \
+    /* Asking and debugging */                                                                     \
+    X(GetError, GETERROR)                                                                          \
+    X(GetGraphicsResetStatus, GETGRAPHICSRESETSTATUS)                                              \
+    X(GetString, GETSTRING)                                                                        \
+    X(GetStringi, GETSTRINGI)                                                                      \
+    X(GetBooleanv, GETBOOLEANV)                                                                    \
+    X(GetIntegerv, GETINTEGERV)                                                                    \
+    X(GetIntegeri_v, GETINTEGERI_V)                                                                \
+    X(GetInteger64v, GETINTEGER64V)                                                                \
+    X(GetInteger64i_v, GETINTEGER64I_V)                                                            \
+    X(GetFloatv, GETFLOATV)                                                                        \
+    X(GetFloati_v, GETFLOATI_V)                                                                    \
+    X(GetMultisamplefv, GETMULTISAMPLEFV)                                                          \
+    X(DebugMessageCallback, DEBUGMESSAGECALLBACK)                                                  \
+    X(DebugMessageControl, DEBUGMESSAGECONTROL)                                                    \
+    X(DebugMessageInsert, DEBUGMESSAGEINSERT)                                                      \
+    X(GetDebugMessageLog, GETDEBUGMESSAGELOG)                                                      \
+    X(ObjectLabel, OBJECTLABEL)                                                                    \
+    X(GetObjectLabel, GETOBJECTLABEL)                                                              \
+    X(PushDebugGroup, PUSHDEBUGGROUP)                                                              \
+    X(PopDebugGroup, POPDEBUGGROUP)
+// clang-format on
+
+/// Entry points a 4.5 context may lack and which are then null:
+/// X(Name, TYPE, MINOR, "extension", "glName of the extension"), core since OpenGL 4.MINOR (0:
+/// never). Presence is decided by version and extension, because glvnd hands out an entry for every
+/// name.
+// clang-format off
+#define GNOMON_GL_OPTIONAL_FUNCTIONS(X) \
+    X(PolygonOffsetClamp, POLYGONOFFSETCLAMP, 6, "GL_EXT_polygon_offset_clamp", "glPolygonOffsetClampEXT") \
+    X(MultiDrawArraysIndirectCount, MULTIDRAWARRAYSINDIRECTCOUNT, 6, "GL_ARB_indirect_parameters", "glMultiDrawArraysIndirectCountARB") \
+    X(MultiDrawElementsIndirectCount, MULTIDRAWELEMENTSINDIRECTCOUNT, 6, "GL_ARB_indirect_parameters", "glMultiDrawElementsIndirectCountARB") \
+    X(MaxShaderCompilerThreadsKHR, MAXSHADERCOMPILERTHREADSKHR, 0, "GL_KHR_parallel_shader_compile", "glMaxShaderCompilerThreadsKHR")
+// clang-format on

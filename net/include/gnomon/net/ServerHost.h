@@ -1,0 +1,70 @@
+#pragma once
+
+#include <gnomon/base/Error.h>
+#include <gnomon/field/Type.h>
+#include <gnomon/net/ServerEvent.h>
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace gnomon::net {
+
+struct ServerOptions {
+    std::string address = "127.0.0.1";  ///< numeric; see ServerHost for others than loopback
+    std::uint16_t port = 0;             ///< 0: any free one
+    std::string name = {};
+    std::string description = {};  ///< for people: renderer, windows
+    bool exitWithClient = false;   ///< Quit after the client left
+    std::chrono::milliseconds handshakeTimeout{5000};
+    /// A client that sends nothing for so long is gone. (It pings several times a second.)
+    std::chrono::milliseconds silentTimeout{30000};
+    /// Most bytes of payloads kept for a session.
+    std::uint64_t payloadBudget = std::uint64_t{16} << 30U;
+};
+
+/// The server's end: takes one client at a time and hands its frames to the main thread.
+///
+/// One Asio thread of its own holds the sockets, puts payloads together and answers Ping; only
+/// immutable messages cross. All functions but quit() and port() belong to one thread, the one
+/// that calls next().
+class ServerHost {
+public:
+    /// Listens at once.
+    /// @param types  learns the client's types within next(), on the calling thread.
+    /// @throws Failure Errc::config: the address is malformed or taken, or is not a loopback one.
+    ///         The latter needs a key (which comes with TLS), or GNOMON_INSECURE=1 in the
+    ///         environment: then anybody who reaches the port can draw on this wall.
+    ServerHost(ServerOptions options, field::TypeRegistry& types);
+    ~ServerHost();
+    ServerHost(const ServerHost&) = delete;
+    ServerHost& operator=(const ServerHost&) = delete;
+
+    std::uint16_t port() const noexcept;
+
+    /// Waits for the next event, in order; Nothing at the deadline.
+    ServerEvent next(std::chrono::steady_clock::time_point deadline);
+    /// Without waiting: is more there already?
+    Queued peek() const;
+
+    // Each is dropped silently when the client is gone.
+    void send(Ready ready);  ///< counts the images sent for this frame, so send them before
+    void send(const Digest& digest);
+    void send(const Depth& depth);
+    void send(const InputEvent& event);
+    void send(const Log& log);  ///< cut at 4096 bytes
+    void send(Image image);
+    /// Told to the client with every Pong. next() sets loading for a snapshot and rendering for a
+    /// frame; the main thread says when it compiles.
+    void setActivity(Activity activity) noexcept;
+
+    /// Makes next() return Quit. From any thread; not from a signal handler.
+    void quit();
+
+private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace gnomon::net

@@ -1,0 +1,41 @@
+#pragma once
+
+// The only door to Asio; private to net, so that nobody else pays for it. <utility> comes first
+// because Asio 1.18's headers use std::exchange without it.
+#include <utility>
+
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/connect.hpp>
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/write.hpp>
+
+#include <chrono>
+#include <cstdint>
+
+namespace gnomon::net {
+
+namespace asio = boost::asio;
+using boost::asio::ip::tcp;
+using boost::system::error_code;
+
+using SteadyClock = std::chrono::steady_clock;
+using TimePoint = SteadyClock::time_point;
+using Milliseconds = std::chrono::milliseconds;
+
+/// Nanoseconds of this machine's steady clock, as Ping, Pong and Ready carry them.
+inline std::int64_t steadyNanoseconds(TimePoint when = SteadyClock::now()) noexcept {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(when.time_since_epoch()).count();
+}
+
+inline double millisecondsOf(SteadyClock::duration span) noexcept {
+    return std::chrono::duration<double, std::milli>(span).count();
+}
+
+/// "127.0.0.1:4711", or "(closed)".
+std::string nameOf(const tcp::socket& socket);
+
+}  // namespace gnomon::net

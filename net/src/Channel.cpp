@@ -1,0 +1,237 @@
+#include "Channel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace gnomon::net {
+namespace {
+
+/// A view of buffers kept elsewhere: Asio copies its sequence at each step of a write.
+struct BufferView {
+    using value_type = asio::const_buffer;
+    using const_iterator = const asio::const_buffer*;
+    const_iterator first = nullptr, last = nullptr;
+    const_iterator begin() const { return first; }
+    const_iterator end() const { return last; }
+};
+
+std::uint32_t loadU32(const std::byte* from) noexcept {
+    std::uint32_t value = 0;
+    std::memcpy(&value, from, sizeof value);
+    return value;
+}
+
+}  // namespace
+
+std::string nameOf(const tcp::socket& socket) {
+    error_code ec;
+    const auto end = socket.remote_endpoint(ec);
+    return ec ? std::string{"(closed)"}
+              : fmt::format("{}:{}", end.address().to_string(), end.port());
+}
+
+Channel::Channel(tcp::socket socket, Route route, Receiver& receiver)
+    : socket_{std::move(socket)},
+      route_{route},
+      receiver_{&receiver},
+      remote_{nameOf(socket_)},
+      input_(inputBytes) {
+    error_code ignored;  // a socket that died already is found by the first read
+    socket_.set_option(tcp::no_delay{true}, ignored);
+    socket_.non_blocking(true, ignored);
+}
+
+void Channel::read() {
+    if (closed_ || reading_ || (paused_ && !finishing_)) return;
+    reading_ = true;
+    std::span<std::byte> room;
+    if (largeLength_ > 0) {
+        if (largeArrived_ == large_.size()) {
+            // Doubles what has arrived: an announced length alone allocates nothing.
+            const std::size_t more = std::max(inputBytes, largeArrived_);
+            large_.resize(std::min(largeLength_, largeArrived_ + more));
+        }
+        room = std::span{large_}.subspan(largeArrived_);
+    } else {
+        room = std::span{input_}.subspan(end_);
+    }
+    socket_.async_read_some(asio::buffer(room.data(), room.size()),
+                            [self = shared_from_this()](error_code ec, std::size_t count) {
+                                self->reading_ = false;
+                                if (self->closed_) return;
+                                if (!ec) return self->arrived(count);
+                                self->fail({.code = Errc::disconnected,
+                                            .what = self->remote_,
+                                            .cause = ec});
+                            });
+}
+
+void Channel::arrived(std::size_t count) {
+    lastHeard_ = SteadyClock::now();
+    if (finishing_) {
+        end_ = 0;
+        return read();
+    }
+    if (largeLength_ > 0)
+        largeArrived_ += count;
+    else
+        end_ += count;
+    parse();
+}
+
+void Channel::parse() {
+    if (parsing_) return;  // resume() from within a message
+    parsing_ = true;
+    while (!closed_ && !finishing_ && !paused_) {
+        auto more = parseOne();
+        if (!more) {
+            fail(std::move(more).error());
+            break;
+        }
+        if (!*more) break;
+    }
+    parsing_ = false;
+    read();
+}
+
+/// Whether there may be another message in the input.
+Result<bool> Channel::parseOne() {
+    if (largeLength_ > 0) {
+        if (largeArrived_ < largeLength_) return false;
+        largeLength_ = 0;
+        auto done = deliver(largeType_, large_);
+        large_ = {};
+        if (!done) return tl::unexpected{std::move(done).error()};
+        return true;
+    }
+    const std::size_t have = end_ - begin_;
+    const auto moveToFront = [&] {
+        if (begin_ > 0) std::memmove(input_.data(), input_.data() + begin_, have);
+        begin_ = 0;
+        end_ = have;
+    };
+    if (have < 8) {
+        moveToFront();
+        return false;
+    }
+    const std::size_t length = loadU32(input_.data() + begin_);
+    const std::uint32_t type = loadU32(input_.data() + begin_ + 4);
+    const Limit limit = limitOf(route_, type);
+    if (!limit.allowed)
+        return gnomon::fail(Errc::protocol,
+                            fmt::format("{}: message of type {} ({}) is not expected here", remote_,
+                                        type, name(static_cast<MessageType>(type))));
+    if (length > limit.bytes)
+        return gnomon::fail(Errc::protocol,
+                            fmt::format("{}: message {} of {} bytes, the limit is {}", remote_,
+                                        name(static_cast<MessageType>(type)), length, limit.bytes));
+    if (length + 8 > input_.size()) {
+        const auto from = input_.begin() + static_cast<std::ptrdiff_t>(begin_ + 8);
+        large_.assign(from, from + static_cast<std::ptrdiff_t>(have - 8));
+        largeArrived_ = have - 8;
+        largeLength_ = length;
+        largeType_ = type;
+        begin_ = end_ = 0;
+        return largeArrived_ >= largeLength_;
+    }
+    if (have < length + 8) {
+        moveToFront();
+        return false;
+    }
+    const std::span<const std::byte> body{input_.data() + begin_ + 8, length};
+    begin_ += length + 8;
+    auto done = deliver(type, body);
+    if (!done) return tl::unexpected{std::move(done).error()};
+    return true;
+}
+
+Result<void> Channel::deliver(std::uint32_t type, std::span<const std::byte> body) {
+    auto done = receiver_->received(*this, static_cast<MessageType>(type), body);
+    if (!done) {
+        Error why = std::move(done).error();
+        why.what = remote_ + ": " + why.what;
+        return tl::unexpected{std::move(why)};
+    }
+    return {};
+}
+
+void Channel::resume() {
+    if (!paused_) return;
+    paused_ = false;
+    if (!reading_) parse();
+}
+
+void Channel::queue(Part part) {
+    if (!isOpen() || part.bytes.empty()) return;
+    queuedBytes_ += part.bytes.size();
+    queue_.push_back(std::move(part));
+    if (writing_ && queuedBytes_ > maxQueuedBytes)
+        fail({.code = Errc::limit,
+              .what = fmt::format("{}: {} bytes wait to be sent, the limit is {}: it does not read",
+                                  remote_, queuedBytes_, maxQueuedBytes)});
+}
+
+void Channel::flush() {
+    if (closed_ || writing_ || queue_.empty()) return;
+    writing_ = true;
+    ++writes_;
+    inFlight_.clear();
+    inFlight_.swap(queue_);
+    queuedBytes_ = 0;
+    buffers_.clear();
+    for (const Part& part : inFlight_) buffers_.emplace_back(part.bytes.data(), part.bytes.size());
+    const BufferView view{.first = buffers_.data(), .last = buffers_.data() + buffers_.size()};
+    asio::async_write(socket_, view,
+                      [self = shared_from_this()](error_code ec, std::size_t count) {
+                          self->writing_ = false;
+                          self->bytesSent_ += count;
+                          self->inFlight_.clear();
+                          if (self->closed_) return;
+                          if (ec)
+                              return self->fail({.code = Errc::disconnected,
+                                                 .what = self->remote_,
+                                                 .cause = ec});
+                          if (!self->queue_.empty()) return self->flush();
+                          if (self->finishing_) return self->end();
+                          if (self->receiver_ != nullptr) self->receiver_->drained(*self);
+                      });
+}
+
+void Channel::finish() {
+    if (closed_ || finishing_) return;
+    finishing_ = true;
+    begin_ = end_ = 0;
+    largeLength_ = 0;
+    // The read in progress, if any, keeps its place in input_ or large_; both stay as they are.
+    flush();
+    if (!writing_) end();
+    if (!parsing_) read();
+}
+
+void Channel::end() {
+    error_code ignored;
+    socket_.shutdown(tcp::socket::shutdown_send, ignored);
+}
+
+void Channel::fail(Error why) {
+    if (closed_) return;
+    closed_ = true;
+    error_code ignored;
+    socket_.close(ignored);
+    // Posted: a queue() in a loop over channels must not change the loop's container.
+    asio::post(socket_.get_executor(), [self = shared_from_this(), why = std::move(why)]() mutable {
+        if (self->receiver_ != nullptr) self->receiver_->closed(*self, std::move(why));
+    });
+}
+
+void Channel::close() {
+    receiver_ = nullptr;
+    if (closed_) return;
+    closed_ = true;
+    error_code ignored;
+    socket_.close(ignored);
+}
+
+}  // namespace gnomon::net

@@ -1,0 +1,162 @@
+#include "FrameGate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace gnomon::net {
+namespace {
+
+/// What an event takes beside its change list: many tiny ones must count, too.
+constexpr std::size_t eventBytes = 256;
+
+std::size_t bytesOf(const field::ChangeList& changes) { return changes.bytes.size() + eventBytes; }
+
+std::string text(const field::Hash128& hash) {
+    return fmt::format("{:016x}{:016x}", hash.high, hash.low);
+}
+
+}  // namespace
+
+Result<void> FrameGate::payload(const wire::Payload& part) {
+    if (!upload_) {
+        if (part.offset != 0)
+            return fail(Errc::protocol, "payload " + text(part.hash) + " does not begin at byte 0");
+        if (part.total > budget_ - std::min(budget_, keptBytes_))
+            return fail(Errc::limit, fmt::format("payloads of {} bytes and another of {}: the "
+                                                 "limit is {}",
+                                                 keptBytes_, part.total, budget_));
+        upload_ = Upload{.hash = part.hash, .serial = part.serial, .total = part.total};
+    }
+    Upload& upload = *upload_;
+    if (upload.hash != part.hash || upload.serial != part.serial || upload.total != part.total ||
+        upload.bytes.size() != part.offset)
+        return fail(Errc::protocol,
+                    fmt::format("payload {} at byte {} of {}: found byte {} of {}, of {}",
+                                text(upload.hash), upload.bytes.size(), upload.total, part.offset,
+                                part.total, text(part.hash)));
+    if (upload.bytes.capacity() < upload.bytes.size() + part.tail.size()) {
+        // Doubling, but not beyond the size that was announced.
+        const auto doubled = 2 * (upload.bytes.size() + part.tail.size());
+        upload.bytes.reserve(std::min<std::size_t>(doubled, upload.total));
+    }
+    upload.bytes.insert(upload.bytes.end(), part.tail.begin(), part.tail.end());
+    if (upload.bytes.size() < upload.total) return {};
+
+    Upload whole = std::move(*upload_);
+    upload_.reset();
+    field::Payload payload{std::move(whole.bytes)};
+    if (payload.hash() != whole.hash)
+        return fail(Errc::protocol, fmt::format("payload {} of {} bytes has the content hash {}",
+                                                text(whole.hash), whole.total,
+                                                text(payload.hash())));
+    auto& kept = kept_[whole.hash];
+    if (!kept.payload) keptBytes_ += payload.size();
+    kept = {.payload = std::move(payload), .serial = whole.serial};
+    return drain();
+}
+
+Result<void> FrameGate::snapshot(const wire::Snapshot& part) {
+    if (started_) return fail(Errc::protocol, "a second Snapshot");
+    if (snapshot_.size() != part.offset)
+        return fail(Errc::protocol, fmt::format("Snapshot at byte {}: found byte {}",
+                                                snapshot_.size(), part.offset));
+    snapshot_.insert(snapshot_.end(), part.tail.begin(), part.tail.end());
+    if (snapshot_.size() < part.total) return {};
+
+    started_ = true;
+    first_ = lastFrame_ = part.n;
+    Snapshot whole{.n = part.n, .time = part.time, .changes = {.bytes = std::move(snapshot_)}};
+    snapshot_ = {};
+    // Bulk keeps its order, so what has come until now is what the snapshot names.
+    for (const auto& [hash, kept] : kept_) whole.changes.payloads.push_back(kept.payload);
+    const std::size_t bytes = bytesOf(whole.changes);
+    emit_(std::move(whole), bytes);
+    return drain();
+}
+
+Result<void> FrameGate::frame(wire::Frame message) {
+    WaitingFrame waiting{
+        .frame = {.n = message.n,
+                  .time = message.time,
+                  .capture = (message.flags & wire::Frame::capture) != 0,
+                  .digest = (message.flags & wire::Frame::digest) != 0,
+                  .wantsDepth = (message.flags & wire::Frame::wantsDepth) != 0,
+                  .changes = {.bytes = {message.tail.begin(), message.tail.end()}}},
+        .needed = std::move(message.needed),
+        .released = std::move(message.released)};
+    if (started_ && waiting_.empty()) {  // the usual case: straight through
+        auto passed = pass(waiting);
+        if (!passed) return tl::unexpected{std::move(passed).error()};
+        if (*passed) return {};
+    }
+    waitingBytes_ += bytesOf(waiting.frame.changes);
+    waiting_.emplace_back(std::move(waiting));
+    return {};
+}
+
+Result<void> FrameGate::fit(const wire::Fit& message) {
+    Fit event{.n = message.n, .changes = {.bytes = {message.tail.begin(), message.tail.end()}}};
+    waitingBytes_ += bytesOf(event.changes);
+    waiting_.emplace_back(std::move(event));
+    return drain();
+}
+
+Result<void> FrameGate::swap(const wire::Swap& message) {
+    waitingBytes_ += eventBytes;
+    waiting_.emplace_back(Swap{.n = message.n});
+    return drain();
+}
+
+Result<void> FrameGate::drain() {
+    while (started_ && !waiting_.empty()) {
+        Waiting& front = waiting_.front();
+        if (auto* frame = std::get_if<WaitingFrame>(&front)) {
+            const std::size_t bytes = bytesOf(frame->frame.changes);
+            auto passed = pass(*frame);
+            if (!passed) return tl::unexpected{std::move(passed).error()};
+            if (!*passed) return {};
+            waitingBytes_ -= bytes;
+        } else if (auto* fit = std::get_if<Fit>(&front)) {
+            const std::size_t bytes = bytesOf(fit->changes);
+            if (fit->n != lastFrame_)
+                return fail(Errc::protocol, fmt::format("Fit {} after frame {}", fit->n,
+                                                        lastFrame_));
+            waitingBytes_ -= bytes;
+            emit_(std::move(*fit), bytes);
+        } else {
+            const Swap swap = std::get<Swap>(front);
+            if (swap.n > lastFrame_)
+                return fail(Errc::protocol, fmt::format("Swap {} after frame {}", swap.n,
+                                                        lastFrame_));
+            waitingBytes_ -= eventBytes;
+            if (swap.n >= first_) emit_(swap, eventBytes);
+        }
+        waiting_.pop_front();
+    }
+    return {};
+}
+
+Result<bool> FrameGate::pass(WaitingFrame& waiting) {
+    Frame& frame = waiting.frame;
+    if (frame.n != lastFrame_ + 1)
+        return tl::unexpected{Error{.code = Errc::protocol,
+                                    .what = fmt::format("Frame {} after frame {}, expected {}",
+                                                        frame.n, lastFrame_, lastFrame_ + 1)}};
+    for (const auto& name : waiting.needed)
+        if (!kept_.contains(name.hash)) return false;
+    for (const auto& name : waiting.needed)
+        frame.changes.payloads.push_back(kept_.find(name.hash)->second.payload);
+    for (const auto& release : waiting.released) {
+        const auto found = kept_.find(release.hash);
+        if (found == kept_.end() || found->second.serial != release.serial) continue;
+        keptBytes_ -= found->second.payload.size();
+        kept_.erase(found);
+    }
+    lastFrame_ = frame.n;
+    const std::size_t bytes = bytesOf(frame.changes);
+    emit_(std::move(frame), bytes);
+    return true;
+}
+
+}  // namespace gnomon::net

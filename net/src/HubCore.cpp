@@ -1,0 +1,117 @@
+#include "HubCore.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::net {
+namespace {
+
+constexpr std::size_t maxEvents = 4096;
+constexpr Milliseconds farewell{300};
+
+}  // namespace
+
+HubCore::HubCore(asio::io_context& io, const field::TypeRegistry& types, SyncOptions options,
+                 HubHooks hooks, Mailbox& mailbox)
+    : io_{io},
+      types_{types},
+      options_{options},
+      hooks_{std::move(hooks)},
+      mailbox_{mailbox},
+      session_{types, 1},
+      watchTimer_{io},
+      stopTimer_{io} {}
+
+void HubCore::connect(ServerAddress address) {
+    if (stopped_) return;
+    const auto found = std::find_if(peers_.begin(), peers_.end(), [&](const auto& peer) {
+        return peer->name() == address.name;
+    });
+    Peer* peer = nullptr;
+    if (found != peers_.end()) {
+        peer = found->get();
+    } else {
+        peers_.push_back(std::make_unique<Peer>(io_, address, options_, *this));
+        peer = peers_.back().get();
+    }
+    peer->open(std::move(address));
+}
+
+std::vector<ServerStatus> HubCore::status() const {
+    std::vector<ServerStatus> list;
+    list.reserve(peers_.size());
+    for (const auto& peer : peers_) list.push_back(peer->status());
+    return list;
+}
+
+HubTotals HubCore::totals() const {
+    HubTotals totals{.frames = swappedN_, .lost = lostCount_, .rejoined = rejoinedCount_};
+    for (const auto& peer : peers_) {
+        totals.controlBytes += peer->controlBytes();
+        totals.controlWrites += peer->controlWrites();
+        totals.bulkBytes += peer->bulkBytes();
+    }
+    return totals;
+}
+
+void HubCore::stop(std::function<void()> done) {
+    stopped_ = std::move(done);
+    watchTimer_.cancel();
+    for (const auto& peer : peers_) peer->stop();
+    stopTimer_.after(farewell, [this] { stopped_(); });
+    changed();
+}
+
+wire::ClientHello HubCore::greeting() {
+    const auto ms = [](Milliseconds value) { return static_cast<std::uint32_t>(value.count()); };
+    return {.sync = {.timeoutMs = ms(options_.timeout),
+                     .startTimeoutMs = ms(options_.startTimeout),
+                     .pipeline = static_cast<std::uint8_t>(options_.pipeline),
+                     .waitForLate = options_.waitForLate,
+                     .digestEvery = static_cast<std::uint32_t>(std::max(options_.digestEvery, 0))},
+            .schema = types_.schema()};
+}
+
+/// Compares in a registry of the moment: the application's own is read by its thread meanwhile,
+/// and nothing a server alone knows ever comes here.
+Result<void> HubCore::checkSchema(std::span<const std::byte> schema, const std::string& who) {
+    field::TypeRegistry scratch;
+    if (auto ours = scratch.agree(types_.schema(), "this client"); !ours) return ours;
+    return scratch.agree(schema, who);
+}
+
+void HubCore::digest(Peer& peer, const Digest& digest) {
+    const auto found = digests_.find(digest.n);
+    if (found == digests_.end() || found->second == digest.digest) return;
+    log(LogLevel::error,
+        fmt::format("{}: its copy of the scene drifted: digest {:016x} after frame {}, expected "
+                    "{:016x}",
+                    peer.label(), digest.digest, digest.n, found->second));
+}
+
+void HubCore::event(Peer& peer, const InputEvent& event) {
+    const std::lock_guard lock{mailbox_.mutex};
+    if (mailbox_.events.size() >= maxEvents) mailbox_.events.pop_front();
+    mailbox_.events.push_back({.server = peer.name(), .event = event});
+}
+
+void HubCore::image(Peer& peer, Image image) {
+    captures_.add(peer.name(), std::move(image));
+    changed();
+}
+
+void HubCore::log(LogLevel level, const std::string& text) {
+    if (hooks_.log) hooks_.log(level, text);
+}
+
+void HubCore::changed() {
+    {
+        const std::lock_guard lock{mailbox_.mutex};
+        ++mailbox_.version;
+    }
+    mailbox_.changed.notify_all();
+}
+
+}  // namespace gnomon::net

@@ -1,0 +1,148 @@
+#pragma once
+
+#include "CaptureBoard.h"
+#include "PayloadLedger.h"
+#include "Peer.h"
+
+#include <gnomon/net/ClientHub.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <map>
+#include <memory>
+#include <mutex>
+
+namespace gnomon::net {
+
+/// A frame on its way from the application's thread and back.
+struct FrameCall {
+    field::ChangeList list = {};
+    double time = 0;
+    bool capture = false;
+    std::uint64_t n = 0;  // given by the core
+    // Guarded by Mailbox::mutex:
+    bool done = false;
+    FrameResult result = {};
+    std::exception_ptr error = {};
+};
+
+/// What crosses from the Asio thread to the application's.
+struct Mailbox {
+    std::mutex mutex = {};
+    std::condition_variable changed = {};
+    std::uint64_t version = 0;  // of what status() shows
+    bool stopped = false;
+    std::deque<InputEventFrom> events = {};
+};
+
+/// ClientHub's logic: everything here runs on the Asio thread.
+///
+/// A frame is handed over, prepared (applied to the session aspect and encoded, once), sent, and
+/// swapped. At most one is outstanding (sent, not swapped) and one prepared; what the session
+/// aspect contains is therefore frame preparedN_.
+class HubCore final : public PeerOwner {
+public:
+    HubCore(asio::io_context& io, const field::TypeRegistry& types, SyncOptions options,
+            HubHooks hooks, Mailbox& mailbox);
+
+    void connect(ServerAddress address);
+    void handOver(std::shared_ptr<FrameCall> call);
+    std::optional<Result<std::vector<TileImage>>> takeImages(std::uint64_t n) {
+        return captures_.take(n);
+    }
+    std::string imagesWaitFor(std::uint64_t n) const { return captures_.waitingFor(n); }
+    std::vector<ServerStatus> status() const;
+    HubTotals totals() const;
+    /// Says goodbye; @p done is called when all have answered, or after a while.
+    void stop(std::function<void()> done);
+
+    wire::ClientHello greeting() override;
+    Result<void> checkSchema(std::span<const std::byte> schema, const std::string& who) override;
+    void connected(Peer& peer) override;
+    void lost(Peer& peer, const Error& why) override;
+    Result<void> ready(Peer& peer, const Ready& ready) override;
+    Result<void> depth(Peer& peer, const Depth& depth) override;
+    void digest(Peer& peer, const Digest& digest) override;
+    void event(Peer& peer, const InputEvent& event) override;
+    void image(Peer& peer, Image image) override;
+    void log(LogLevel level, const std::string& text) override;
+    void changed() override;
+
+private:
+    struct Prepared {
+        std::uint64_t n = 0;
+        bool capture = false;
+        bool wantsDepth = false;
+        Part head = {};     // length, type and fields of Frame
+        Part changes = {};  // its tail
+        std::uint64_t bytes = 0;
+        std::uint64_t payloadBytes = 0;
+    };
+    struct Outstanding {
+        Prepared frame = {};
+        TimePoint sentAt = {};
+        std::optional<TimePoint> firstReady = {};
+        std::string readyLast = {};
+        bool fitted = false;
+    };
+
+    // HubFrames.cpp: handing over, preparing, sending, swapping.
+    void advance();
+    void prepare(FrameCall& call);
+    void encode(FrameCall& call);
+    void tryFit();
+    void sendFrame();
+    void swapFrame();
+    bool barrierDone() const;
+    void sendSwap(Peer& peer, std::uint64_t n, const Part& part);
+    void flushAll();
+    void completeCalls();
+    void failCalls();
+    std::optional<double> skewOf(std::uint64_t n) const;
+    void noteDigest(std::uint64_t n);
+
+    // HubMembers.cpp: joining, lateness, loss.
+    bool mayJoin(std::uint64_t ready) const;
+    void uploadTo(Peer& peer, const PayloadLedger::Kept& kept);
+    void sendSnapshot(Peer& peer);
+    void watch();
+    void look(bool confirmed);
+    TimePoint dueOf(const Peer& peer) const;
+    void dropLate(Peer& peer);
+    Milliseconds allowance() const;
+    bool anyMember() const;
+
+    asio::io_context& io_;
+    const field::TypeRegistry& types_;
+    const SyncOptions options_;
+    const HubHooks hooks_;
+    Mailbox& mailbox_;
+
+    field::Aspect session_;
+    field::Applied applied_;
+    PayloadLedger ledger_;
+    CaptureBoard captures_;
+    std::map<std::uint64_t, std::uint64_t> digests_;  // by frame, the newest few
+
+    std::vector<std::unique_ptr<Peer>> peers_;
+    std::deque<std::shared_ptr<FrameCall>> unprepared_, calls_;
+    std::optional<Prepared> prepared_;
+    std::optional<Outstanding> outstanding_;
+    std::uint64_t handedOver_ = 0, preparedN_ = 0, sentN_ = 0, swappedN_ = 0;
+    double preparedTime_ = 0;
+    std::deque<std::pair<std::uint64_t, TimePoint>> sentLately_;
+    std::exception_ptr failure_;
+
+    Part snapshot_;  // of snapshotVersion_
+    std::uint64_t sessionVersion_ = 0, snapshotVersion_ = ~std::uint64_t{0};
+
+    FrameResult latest_;  // what the next completed call reports
+    Timer watchTimer_, stopTimer_;
+    std::function<void()> stopped_;
+    bool advancing_ = false;
+    std::uint32_t lostCount_ = 0, rejoinedCount_ = 0;
+};
+
+}  // namespace gnomon::net

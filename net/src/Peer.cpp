@@ -1,0 +1,371 @@
+#include "Peer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <random>
+
+namespace gnomon::net {
+namespace {
+
+constexpr Milliseconds firstRetry{50};
+constexpr Milliseconds lastRetry{2000};
+constexpr Milliseconds connectLimit{5000};
+/// Pings at the start of a connection come quickly, so that the clock is known at once.
+constexpr int quickPings = 8;
+constexpr Milliseconds quickInterval{10};
+
+std::uint64_t randomToken() {
+    std::random_device source;
+    return (std::uint64_t{source()} << 32U) | source();
+}
+
+}  // namespace
+
+Peer::Peer(asio::io_context& io, ServerAddress address, const SyncOptions& options,
+           PeerOwner& owner)
+    : io_{io},
+      address_{std::move(address)},
+      options_{options},
+      owner_{owner},
+      resolver_{io},
+      timer_{io},
+      pingTimer_{io} {}
+
+std::string Peer::label() const {
+    return fmt::format("{} ({}:{})", address_.name, address_.host, address_.port);
+}
+
+void Peer::open(ServerAddress address) {
+    const bool moved = address.host != address_.host || address.port != address_.port;
+    if (moved && state_ != ServerState::waiting)
+        drop({.code = Errc::disconnected,
+              .what = fmt::format("{} moved to {}:{}", label(), address.host, address.port)});
+    address_ = std::move(address);
+    retryDelay_ = firstRetry;
+    if (state_ == ServerState::waiting) connect();
+}
+
+void Peer::connect() {
+    if (stopping_) return;
+    ++attempt_;
+    state_ = ServerState::connecting;
+    owner_.changed();
+    timer_.after(std::min(connectLimit, options_.startTimeout), [this] {
+        drop({.code = Errc::timeout, .what = label() + ": no answer to the connection attempt"});
+    });
+    dial(&Peer::greet);
+}
+
+void Peer::dial(Connected then) {
+    error_code ec;
+    const auto address = asio::ip::make_address(address_.host, ec);
+    if (!ec) return dialTo({tcp::endpoint{address, address_.port}}, then);
+    resolver_.async_resolve(
+        address_.host, std::to_string(address_.port),
+        [this, then, mine = attempt_](error_code failed, tcp::resolver::results_type found) {
+            if (mine != attempt_) return;
+            if (failed)
+                return drop({.code = Errc::disconnected, .what = label(), .cause = failed});
+            std::vector<tcp::endpoint> ends;
+            for (const auto& entry : found) ends.push_back(entry.endpoint());
+            dialTo(std::move(ends), then);
+        });
+}
+
+void Peer::dialTo(std::vector<tcp::endpoint> ends, Connected then) {
+    dialling_ = std::make_shared<tcp::socket>(io_);
+    auto to = std::make_shared<const std::vector<tcp::endpoint>>(std::move(ends));
+    asio::async_connect(
+        *dialling_, *to,
+        [this, then, to, socket = dialling_, mine = attempt_](error_code ec,
+                                                              const tcp::endpoint&) {
+            if (mine != attempt_) return;
+            error_code ignored;
+            // A loopback port nobody listens on can connect to itself, and would keep the server
+            // from ever having it.
+            if (!ec && socket->local_endpoint(ignored) == socket->remote_endpoint(ignored))
+                ec = asio::error::connection_refused;
+            if (ec) return drop({.code = Errc::disconnected, .what = label(), .cause = ec});
+            dialling_.reset();
+            (this->*then)(std::move(*socket));
+        });
+}
+
+void Peer::greet(tcp::socket socket) {
+    control_ = std::make_shared<Channel>(std::move(socket), Route::toClientControl, *this);
+    token_ = randomToken();
+    auto hello = owner_.greeting();
+    hello.role = wire::Role::control;
+    hello.token = token_;
+    control_->start();
+    control_->send(Part::of(packet(hello)));
+    state_ = ServerState::greeting;
+    owner_.changed();
+    timer_.after(options_.startTimeout, [this] {
+        drop({.code = Errc::timeout,
+              .what = fmt::format("{}: no answer to Hello within {} ms", label(),
+                                  options_.startTimeout.count())});
+    });
+}
+
+Result<void> Peer::welcome(std::span<const std::byte> body) {
+    if (state_ != ServerState::greeting) return fail(Errc::protocol, "a second Hello");
+    auto hello = decode<wire::ServerHello>(body);
+    if (!hello) return tl::unexpected{std::move(hello).error()};
+    if (auto agreed = owner_.checkSchema(hello->schema, "server " + label()); !agreed)
+        return agreed;
+    description_ = hello->description;
+    state_ = ServerState::joining;
+    timer_.after(std::min(connectLimit, options_.startTimeout), [this] {
+        drop({.code = Errc::timeout, .what = label() + ": no answer to the bulk connection"});
+    });
+    dial(&Peer::joinBulk);
+    ping();
+    owner_.changed();
+    return {};
+}
+
+void Peer::joinBulk(tcp::socket socket) {
+    bulkChannel_ = std::make_shared<Channel>(std::move(socket), Route::toClientBulk, *this);
+    auto hello = owner_.greeting();
+    hello.role = wire::Role::bulk;
+    hello.token = token_;
+    hello.schema.clear();
+    bulkChannel_->start();
+    bulkChannel_->send(Part::of(packet(hello)));
+    bulk_.attach(bulkChannel_);
+    bulk_.drained();  // progress counts from here
+    watchLoading();
+    owner_.connected(*this);
+}
+
+/// A joiner may take startTimeout after its last upload.
+void Peer::watchLoading() {
+    const auto due = bulk_.lastProgress() + options_.startTimeout;
+    if (SteadyClock::now() < due) return timer_.at(due, [this] { watchLoading(); });
+    drop({.code = Errc::timeout,
+          .what = fmt::format("{}: {} for more than {} ms", label(), stateText(),
+                              options_.startTimeout.count())});
+}
+
+void Peer::becomeMember() {
+    timer_.cancel();
+    state_ = ServerState::member;
+    lastError_.clear();
+    lastLogged_.clear();
+    retryDelay_ = firstRetry;
+    standing.member = true;
+    standing.memberSince = SteadyClock::now();
+    if (everMember) ++timesRejoined;
+    everMember = true;
+    owner_.changed();
+}
+
+void Peer::ping() {
+    if (!control_ || !control_->isOpen()) return;
+    control_->send(Part::of(packet(wire::Ping{.sentAt = steadyNanoseconds()})));
+    const auto interval = ++pings_ < quickPings ? std::min(quickInterval, options_.pingInterval)
+                                                : options_.pingInterval;
+    pingTimer_.after(interval, [this] { ping(); });
+}
+
+Result<void> Peer::received(Channel& from, MessageType type, std::span<const std::byte> body) {
+    if (type == MessageType::refused) {
+        auto refused = decode<wire::Refused>(body);
+        if (!refused) return tl::unexpected{std::move(refused).error()};
+        drop({.code = Errc::disconnected,
+              .what = fmt::format("{}: refused: {}", label(), refused->why)});
+        return {};
+    }
+    if (&from == bulkChannel_.get()) return imagePart(body);
+    if (&from != control_.get()) return {};
+    if (type == MessageType::serverHello) return welcome(body);
+    if (state_ == ServerState::greeting) return fail(Errc::protocol, "a message before Hello");
+    const auto take = [&]<class M>(auto&& use) -> Result<void> {
+        auto message = decode<M>(body);
+        if (!message) return tl::unexpected{std::move(message).error()};
+        return use(*message);
+    };
+    switch (type) {
+        case MessageType::ready:
+            return take.operator()<Ready>([&](const Ready& m) { return owner_.ready(*this, m); });
+        case MessageType::depth:
+            return take.operator()<Depth>([&](const Depth& m) { return owner_.depth(*this, m); });
+        case MessageType::digest:
+            return take.operator()<Digest>([&](const Digest& m) -> Result<void> {
+                owner_.digest(*this, m);
+                return {};
+            });
+        case MessageType::event:
+            return take.operator()<InputEvent>([&](const InputEvent& m) -> Result<void> {
+                owner_.event(*this, m);
+                return {};
+            });
+        case MessageType::log:
+            return take.operator()<Log>([&](const Log& m) -> Result<void> {
+                owner_.log(m.level, label() + ": " + m.text);
+                return {};
+            });
+        case MessageType::pong: return pongArrived(body);
+        default: return {};  // Route lets nothing else through
+    }
+}
+
+Result<void> Peer::pongArrived(std::span<const std::byte> body) {
+    auto pong = decode<wire::Pong>(body);
+    if (!pong) return tl::unexpected{std::move(pong).error()};
+    clock_.add(pong->sentAt, pong->serverClock, steadyNanoseconds());
+    const bool news = !pong_ || pong_->activity != pong->activity;
+    pong_ = *pong;
+    if (news) owner_.changed();
+    return {};
+}
+
+Result<void> Peer::imagePart(std::span<const std::byte> body) {
+    auto part = decode<wire::Image>(body);
+    if (!part) return tl::unexpected{std::move(part).error()};
+    if (!image_) {
+        image_ = Image{.n = part->n,
+                       .window = part->window,
+                       .x = part->x,
+                       .y = part->y,
+                       .width = part->width,
+                       .height = part->height,
+                       .channels = part->channels};
+        imageArrived_ = 0;
+    }
+    if (part->offset != imageArrived_ || part->n != image_->n || part->window != image_->window ||
+        part->width != image_->width || part->height != image_->height ||
+        part->channels != image_->channels)
+        return fail(Errc::protocol, fmt::format("Image of frame {} at byte {}: found byte {} of "
+                                                "frame {}",
+                                                image_->n, imageArrived_, part->offset, part->n));
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(part->tail.data());
+    image_->pixels.insert(image_->pixels.end(), bytes, bytes + part->tail.size());
+    imageArrived_ += part->tail.size();
+    if (imageArrived_ < part->total()) return {};
+    Image whole = std::move(*image_);
+    image_.reset();
+    owner_.image(*this, std::move(whole));
+    return {};
+}
+
+void Peer::drained(Channel& channel) {
+    if (&channel == bulkChannel_.get()) bulk_.drained();
+}
+
+void Peer::closed(Channel& channel, Error why) {
+    if (&channel != control_.get() && &channel != bulkChannel_.get()) return;
+    why.what = label() + (why.cause ? "" : ": " + why.what);
+    drop(std::move(why));
+}
+
+void Peer::closeAll() {
+    timer_.cancel();
+    pingTimer_.cancel();
+    resolver_.cancel();
+    if (dialling_) {
+        error_code ignored;
+        dialling_->close(ignored);
+        dialling_.reset();
+    }
+    if (control_) {
+        pastControlBytes_ += control_->bytesSent();
+        pastControlWrites_ += control_->writes();
+        control_->close();
+        control_.reset();
+    }
+    if (bulkChannel_) {
+        pastBulkBytes_ += bulkChannel_->bytesSent();
+        bulkChannel_->close();
+        bulkChannel_.reset();
+    }
+    bulk_.clear();
+    clock_ = {};
+    pong_.reset();
+    pings_ = 0;
+    image_.reset();
+}
+
+void Peer::drop(Error why) {
+    ++attempt_;
+    closeAll();
+    state_ = ServerState::waiting;
+    lastError_ = why.text();
+    if (standing.member) ++timesLost;
+    if (!stopping_ && lastError_ != lastLogged_) {
+        lastLogged_ = lastError_;
+        owner_.log(standing.member ? LogLevel::warning : LogLevel::info, lastError_);
+    }
+    owner_.lost(*this, why);
+    standing = {};
+    owner_.changed();
+    if (stopping_) return;
+    timer_.after(retryDelay_, [this] { connect(); });
+    retryDelay_ = std::min(retryDelay_ * 2, lastRetry);
+}
+
+void Peer::stop() {
+    stopping_ = true;
+    ++attempt_;
+    if (!control_ || !control_->isOpen()) {
+        closeAll();
+        state_ = ServerState::waiting;
+        return;
+    }
+    timer_.cancel();
+    pingTimer_.cancel();
+    bulk_.clear();  // the channel stays: its end must not overtake the goodbye
+    control_->send(Part::of(packet(wire::Bye{})));
+    control_->finish();
+}
+
+std::uint64_t Peer::controlBytes() const noexcept {
+    return pastControlBytes_ + (control_ ? control_->bytesSent() : 0);
+}
+std::uint64_t Peer::controlWrites() const noexcept {
+    return pastControlWrites_ + (control_ ? control_->writes() : 0);
+}
+std::uint64_t Peer::bulkBytes() const noexcept {
+    return pastBulkBytes_ + (bulkChannel_ ? bulkChannel_->bytesSent() : 0);
+}
+
+std::string Peer::stateText() const {
+    switch (state_) {
+        case ServerState::waiting: return lastError_.empty() ? "not connected" : lastError_;
+        case ServerState::connecting:
+            return lastError_.empty() ? "connecting" : lastError_ + " (trying again)";
+        case ServerState::greeting: return "connected, no answer to Hello yet";
+        case ServerState::joining:
+            if (bulk_.waitingBytes() > 0)
+                return fmt::format("loading ({:.1f} MB to be sent)",
+                                   static_cast<double>(bulk_.waitingBytes()) * 1e-6);
+            if (pong_ && pong_->activity == Activity::compiling) return "compiling";
+            if (pong_ && pong_->activity == Activity::rendering) return "rendering its first frame";
+            return "loading";
+        case ServerState::member: return "takes part";
+    }
+    return {};
+}
+
+ServerStatus Peer::status() const {
+    ServerStatus status{.address = address_,
+                        .state = state_,
+                        .text = stateText(),
+                        .description = description_,
+                        .lastReady = standing.lastReady,
+                        .stats = standing.stats,
+                        .toUpload = bulk_.waitingBytes(),
+                        .lost = timesLost,
+                        .rejoined = timesRejoined};
+    if (pong_) {
+        status.activity = pong_->activity;
+        status.current = pong_->current;
+        status.busyMs = pong_->busyMs;
+    }
+    if (const auto trip = clock_.trip()) status.tripMs = static_cast<double>(*trip) * 1e-6;
+    return status;
+}
+
+}  // namespace gnomon::net

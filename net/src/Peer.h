@@ -1,0 +1,143 @@
+#pragma once
+
+#include "BulkSender.h"
+#include "Channel.h"
+#include "ClockFilter.h"
+#include "Timer.h"
+
+#include <gnomon/net/HubTypes.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon::net {
+
+class Peer;
+
+/// What a Peer tells the hub. Called on the Asio thread.
+class PeerOwner {
+public:
+    virtual ~PeerOwner() = default;
+    /// The Hello to greet with; the peer fills in role and token.
+    virtual wire::ClientHello greeting() = 0;
+    virtual Result<void> checkSchema(std::span<const std::byte> schema, const std::string& who) = 0;
+    /// Both connections stand: upload the session.
+    virtual void connected(Peer& peer) = 0;
+    /// Its connections are gone; @p standing is what it had achieved with them.
+    virtual void lost(Peer& peer, const Error& why) = 0;
+    virtual Result<void> ready(Peer& peer, const Ready& ready) = 0;
+    virtual Result<void> depth(Peer& peer, const Depth& depth) = 0;
+    virtual void digest(Peer& peer, const Digest& digest) = 0;
+    virtual void event(Peer& peer, const InputEvent& event) = 0;
+    virtual void image(Peer& peer, Image image) = 0;
+    virtual void log(LogLevel level, const std::string& text) = 0;
+    /// Something status() shows is different.
+    virtual void changed() = 0;
+};
+
+/// Where a server stands in the session, from the connection on. Kept by the hub.
+struct Standing {
+    bool joined = false;  ///< the snapshot is on its way; gets all frames after it
+    bool member = false;  ///< the barrier waits for it
+    TimePoint memberSince = {};
+    std::uint64_t snapshot = 0;  ///< the frame it begins with
+    std::uint64_t lastSwap = 0;  ///< sent
+    std::uint64_t lastReady = 0;
+    bool anyReady = false;
+    RenderStats stats = {};
+    std::optional<Depth> depth = {};
+    std::uint64_t shownFrame = 0;
+    std::int64_t shownAt = 0;  ///< nanoseconds of our clock
+};
+
+/// One server as the client sees it: connects, greets, connects again when it was lost, and keeps
+/// the clock. What frames it gets is the hub's business.
+class Peer final : public Receiver {
+public:
+    Peer(asio::io_context& io, ServerAddress address, const SyncOptions& options,
+         PeerOwner& owner);
+
+    /// Connects now; a connection to another address ends.
+    void open(ServerAddress address);
+    /// Closes the connections, tells the owner, and tries again later.
+    void drop(Error why);
+    /// Says goodbye; no more attempts. drop() or silence ends it.
+    void stop();
+    bool silent() const noexcept { return !control_ && !bulkChannel_; }
+
+    void queue(const Part& part) {
+        if (control_) control_->queue(part);
+    }
+    void flush() {
+        if (control_) control_->flush();
+    }
+    /// Begins a membership: the next loss is retried at once.
+    void becomeMember();
+
+    const std::string& name() const noexcept { return address_.name; }
+    /// "left2 (127.0.0.1:4711)"
+    std::string label() const;
+    ServerStatus status() const;
+    BulkSender& bulk() noexcept { return bulk_; }
+    const BulkSender& bulk() const noexcept { return bulk_; }
+    const ClockFilter& clock() const noexcept { return clock_; }
+    const std::optional<wire::Pong>& lastPong() const noexcept { return pong_; }
+    TimePoint lastHeard() const noexcept { return control_ ? control_->lastHeard() : TimePoint{}; }
+    std::uint64_t controlBytes() const noexcept;
+    std::uint64_t controlWrites() const noexcept;
+    std::uint64_t bulkBytes() const noexcept;
+
+    Standing standing = {};
+    std::uint32_t timesLost = 0;
+    std::uint32_t timesRejoined = 0;
+    bool everMember = false;
+
+    Result<void> received(Channel& from, MessageType type,
+                          std::span<const std::byte> body) override;
+    void drained(Channel& channel) override;
+    void closed(Channel& channel, Error why) override;
+
+private:
+    using Connected = void (Peer::*)(tcp::socket socket);
+
+    void connect();
+    void dial(Connected then);
+    void dialTo(std::vector<tcp::endpoint> ends, Connected then);
+    void greet(tcp::socket socket);
+    void joinBulk(tcp::socket socket);
+    Result<void> welcome(std::span<const std::byte> body);
+    Result<void> pongArrived(std::span<const std::byte> body);
+    Result<void> imagePart(std::span<const std::byte> body);
+    void ping();
+    void watchLoading();
+    void closeAll();
+    std::string stateText() const;
+
+    asio::io_context& io_;
+    ServerAddress address_;
+    const SyncOptions& options_;
+    PeerOwner& owner_;
+    ServerState state_ = ServerState::waiting;
+    bool stopping_ = false;
+    std::uint64_t attempt_ = 0;  // callbacks of earlier ones are stale
+    std::uint64_t token_ = 0;
+    std::shared_ptr<tcp::socket> dialling_;
+    tcp::resolver resolver_;
+    std::shared_ptr<Channel> control_;
+    std::shared_ptr<Channel> bulkChannel_;
+    BulkSender bulk_;
+    ClockFilter clock_;
+    std::optional<wire::Pong> pong_;
+    int pings_ = 0;
+    std::optional<Image> image_;  // arriving
+    std::uint64_t imageArrived_ = 0;
+    std::string description_;
+    std::string lastError_, lastLogged_;
+    Milliseconds retryDelay_{50};
+    Timer timer_, pingTimer_;
+    std::uint64_t pastControlBytes_ = 0, pastControlWrites_ = 0, pastBulkBytes_ = 0;
+};
+
+}  // namespace gnomon::net

@@ -1,0 +1,165 @@
+#include <gnomon/net/ServerHost.h>
+
+#include "HostCore.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <thread>
+
+namespace gnomon::net {
+namespace {
+
+tcp::acceptor listen(asio::io_context& io, const ServerOptions& options) {
+    const auto refuse = [&](const std::string& why, error_code ec = {}) {
+        return Failure{{.code = Errc::config,
+                        .what = fmt::format("server \"{}\": cannot listen on {}:{}{}", options.name,
+                                            options.address, options.port,
+                                            why.empty() ? why : ": " + why),
+                        .cause = ec}};
+    };
+    error_code ec;
+    const auto address = asio::ip::make_address(options.address, ec);
+    if (ec) throw refuse("not a numeric IPv4 or IPv6 address, such as 127.0.0.1");
+    const char* insecure = std::getenv("GNOMON_INSECURE");  // before any thread of ours starts
+    if (!address.is_loopback() && (insecure == nullptr || std::string_view{insecure} != "1"))
+        throw refuse("other computers may only connect with a key, which this version cannot check "
+                     "yet (GNOMON_INSECURE=1 lets anybody in)");
+    const tcp::endpoint end{address, options.port};
+    tcp::acceptor acceptor{io};
+    if (acceptor.open(end.protocol(), ec)) throw refuse({}, ec);
+    acceptor.set_option(tcp::acceptor::reuse_address{true}, ec);
+    if (acceptor.bind(end, ec)) throw refuse({}, ec);
+    if (acceptor.listen(tcp::acceptor::max_listen_connections, ec)) throw refuse({}, ec);
+    return acceptor;
+}
+
+}  // namespace
+
+class ServerHost::Impl {
+public:
+    Impl(ServerOptions options, field::TypeRegistry& types)
+        : types_{types}, core_{[&] {
+              auto acceptor = listen(io_, options);
+              port_ = acceptor.local_endpoint().port();
+              return std::make_unique<HostCore>(io_, std::move(acceptor), std::move(options),
+                                                inbox_, progress_);
+          }()} {
+        core_->start();
+        thread_ = std::thread{[this] { io_.run(); }};
+    }
+
+    ~Impl() {
+        asio::post(io_, [this] {
+            core_->stop();
+            linger_ = std::make_unique<Timer>(io_);
+            // Time for a last Refused to leave; nobody is waited for.
+            linger_->after(Milliseconds{20}, [this] { io_.stop(); });
+        });
+        thread_.join();
+        core_.reset();  // its channels, while io_ still lives
+    }
+
+    template <class Fn>
+    void onCore(Fn&& fn) {
+        asio::post(io_, [this, fn = std::forward<Fn>(fn)]() mutable { fn(*core_); });
+    }
+    void sendControl(std::vector<std::byte> bytes) {
+        onCore([part = Part::of(std::move(bytes))](HostCore& core) mutable {
+            core.sendControl(std::move(part));
+        });
+    }
+
+    void agree(const SchemaOffer& offer) {
+        auto outcome = types_.agree(offer.schema, offer.who);
+        onCore([id = offer.session, outcome = std::move(outcome), schema = types_.schema()](
+                   HostCore& core) mutable { core.agreed(id, std::move(outcome), std::move(schema)); });
+    }
+
+    void busyWith(std::uint64_t frame, Activity activity) {
+        progress_.current = frame;
+        progress_.busySince = steadyNanoseconds();
+        progress_.activity = activity;
+    }
+    void finished(std::uint64_t frame) {
+        if (frame != 0) progress_.lastFinished = frame;
+        progress_.current = 0;
+        progress_.busySince = 0;
+        progress_.activity = Activity::idle;
+    }
+
+    field::TypeRegistry& types_;
+    asio::io_context io_{1};
+    asio::executor_work_guard<asio::io_context::executor_type> work_{io_.get_executor()};
+    Inbox inbox_;
+    Progress progress_;
+    std::uint16_t port_ = 0;
+    std::unique_ptr<HostCore> core_;
+    std::unique_ptr<Timer> linger_;
+    std::thread thread_;
+    std::uint64_t imagesOf_ = 0;  // frame
+    std::uint32_t images_ = 0;    // sent for it
+};
+
+ServerHost::ServerHost(ServerOptions options, field::TypeRegistry& types)
+    : impl_{std::make_unique<Impl>(std::move(options), types)} {}
+
+ServerHost::~ServerHost() = default;
+
+std::uint16_t ServerHost::port() const noexcept { return impl_->port_; }
+
+ServerEvent ServerHost::next(std::chrono::steady_clock::time_point deadline) {
+    while (true) {
+        auto item = impl_->inbox_.pop(deadline);
+        if (!item) return Nothing{};
+        if (const auto* offer = std::get_if<SchemaOffer>(&*item)) {
+            impl_->agree(*offer);
+            continue;
+        }
+        if (impl_->inbox_.throttled()) impl_->onCore([](HostCore& core) { core.throttle(); });
+        ServerEvent event = std::get<ServerEvent>(std::move(*item));
+        if (const auto* frame = std::get_if<Frame>(&event)) {
+            impl_->busyWith(frame->n, Activity::rendering);
+        } else if (const auto* snapshot = std::get_if<Snapshot>(&event)) {
+            impl_->busyWith(snapshot->n, Activity::loading);
+        } else if (std::holds_alternative<ClientLeft>(event) ||
+                   std::holds_alternative<ClientJoined>(event)) {
+            impl_->finished(0);
+            impl_->progress_.lastFinished = 0;
+        }
+        return event;
+    }
+}
+
+Queued ServerHost::peek() const { return impl_->inbox_.peek(); }
+
+void ServerHost::send(Ready ready) {
+    ready.images = ready.n == impl_->imagesOf_ ? impl_->images_ : 0;
+    impl_->finished(ready.n);
+    impl_->sendControl(packet(ready));
+}
+
+void ServerHost::send(const Digest& digest) { impl_->sendControl(packet(digest)); }
+void ServerHost::send(const Depth& depth) { impl_->sendControl(packet(depth)); }
+void ServerHost::send(const InputEvent& event) { impl_->sendControl(packet(event)); }
+
+void ServerHost::send(const Log& log) {
+    impl_->sendControl(packet(Log{.level = log.level, .text = log.text.substr(0, 4096)}));
+}
+
+void ServerHost::send(Image image) {
+    GNOMON_EXPECTS(image.pixels.size() == std::size_t{image.width} * image.height * image.channels,
+                   "an image's pixels do not match its size");
+    if (impl_->imagesOf_ != image.n) impl_->images_ = 0;
+    impl_->imagesOf_ = image.n;
+    ++impl_->images_;
+    impl_->onCore([shared = std::make_shared<const Image>(std::move(image))](HostCore& core) {
+        core.sendImage(shared);
+    });
+}
+
+void ServerHost::setActivity(Activity activity) noexcept { impl_->progress_.activity = activity; }
+
+void ServerHost::quit() { impl_->inbox_.push(ServerEvent{Quit{}}, 0); }
+
+}  // namespace gnomon::net

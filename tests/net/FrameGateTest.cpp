@@ -1,0 +1,163 @@
+// The server's two streams put together, without sockets.
+#include "FrameGate.h"
+
+#include <gtest/gtest.h>
+
+namespace gnomon::net {
+namespace {
+
+std::vector<std::byte> content(std::size_t size, int seed) {
+    std::vector<std::byte> bytes(size);
+    for (std::size_t i = 0; i < size; ++i)
+        bytes[i] = static_cast<std::byte>(i * 31 + static_cast<std::size_t>(seed));
+    return bytes;
+}
+
+struct Gate {
+    std::vector<ServerEvent> events = {};
+    FrameGate gate;
+
+    explicit Gate(std::uint64_t budget = 1'000'000)
+        : gate{budget, [this](ServerEvent event, std::size_t) { events.push_back(std::move(event)); }} {}
+
+    Result<void> upload(const std::vector<std::byte>& bytes, std::uint64_t serial,
+                        std::size_t chunk = 1000) {
+        const std::span<const std::byte> all{bytes};
+        for (std::size_t at = 0; at < bytes.size(); at += chunk) {
+            auto done = gate.payload({.hash = field::contentHash(bytes),
+                                      .serial = serial,
+                                      .total = bytes.size(),
+                                      .offset = at,
+                                      .tail = all.subspan(at, std::min(chunk, bytes.size() - at))});
+            if (!done) return done;
+        }
+        return {};
+    }
+    Result<void> snapshot(std::uint64_t n) { return gate.snapshot({.n = n}); }
+    Result<void> frame(std::uint64_t n, std::vector<wire::PayloadName> needed = {},
+                       std::vector<wire::PayloadRelease> released = {}) {
+        return gate.frame(
+            {.n = n, .needed = std::move(needed), .released = std::move(released)});
+    }
+    template <class E>
+    const E* last() const {
+        return events.empty() ? nullptr : std::get_if<E>(&events.back());
+    }
+};
+
+wire::PayloadName nameOf(const std::vector<std::byte>& bytes) {
+    return {.hash = field::contentHash(bytes), .size = bytes.size()};
+}
+
+TEST(FrameGate, HoldsEverythingBackUntilTheSnapshotIsThere) {
+    Gate gate;
+    ASSERT_TRUE(gate.gate.swap({.n = 4}));
+    ASSERT_TRUE(gate.frame(6));
+    ASSERT_TRUE(gate.gate.swap({.n = 6}));
+    EXPECT_TRUE(gate.events.empty());
+    EXPECT_GT(gate.gate.waitingBytes(), 0U);
+    ASSERT_TRUE(gate.snapshot(5));
+    ASSERT_EQ(gate.events.size(), 3U);  // the swap of frame 4 concerns nothing here
+    EXPECT_EQ(std::get<Snapshot>(gate.events[0]).n, 5U);
+    EXPECT_EQ(std::get<Frame>(gate.events[1]).n, 6U);
+    EXPECT_EQ(std::get<Swap>(gate.events[2]).n, 6U);
+    EXPECT_EQ(gate.gate.waitingBytes(), 0U);
+}
+
+TEST(FrameGate, AFrameWaitsForItsPayloadsAndHoldsBackWhatFollows) {
+    Gate gate;
+    const auto bytes = content(2500, 1);
+    ASSERT_TRUE(gate.snapshot(0));
+    ASSERT_TRUE(gate.frame(1, {nameOf(bytes)}));
+    ASSERT_TRUE(gate.frame(2));
+    EXPECT_EQ(gate.events.size(), 1U);
+    ASSERT_TRUE(gate.upload(bytes, 1));
+    ASSERT_EQ(gate.events.size(), 3U);
+    const auto& frame = std::get<Frame>(gate.events[1]);
+    ASSERT_EQ(frame.changes.payloads.size(), 1U);
+    EXPECT_EQ(frame.changes.payloads[0].hash(), nameOf(bytes).hash);
+    EXPECT_EQ(std::get<Frame>(gate.events[2]).n, 2U);
+}
+
+TEST(FrameGate, AReleasedPayloadIsAwaitedAgain) {
+    Gate gate;
+    const auto bytes = content(10, 1);
+    ASSERT_TRUE(gate.snapshot(0));
+    ASSERT_TRUE(gate.upload(bytes, 1));
+    ASSERT_TRUE(gate.frame(1, {nameOf(bytes)}, {{.hash = nameOf(bytes).hash, .serial = 1}}));
+    EXPECT_EQ(gate.last<Frame>()->changes.payloads.size(), 1U);
+    ASSERT_TRUE(gate.frame(2, {nameOf(bytes)}));
+    EXPECT_EQ(gate.last<Frame>()->n, 1U);
+    ASSERT_TRUE(gate.upload(bytes, 2));
+    EXPECT_EQ(gate.last<Frame>()->n, 2U);
+}
+
+TEST(FrameGate, AReleaseThatComesAfterTheNextUploadDoesNotTakeIt) {
+    Gate gate;
+    const auto bytes = content(10, 1);
+    ASSERT_TRUE(gate.snapshot(0));
+    ASSERT_TRUE(gate.upload(bytes, 1));
+    ASSERT_TRUE(gate.upload(bytes, 2));  // bulk ran ahead of control
+    ASSERT_TRUE(gate.frame(1, {}, {{.hash = nameOf(bytes).hash, .serial = 1}}));
+    ASSERT_TRUE(gate.frame(2, {nameOf(bytes)}));
+    EXPECT_EQ(gate.last<Frame>()->n, 2U);
+}
+
+TEST(FrameGate, ASnapshotCarriesWhatWasUploadedBefore) {
+    Gate gate;
+    ASSERT_TRUE(gate.upload(content(100, 1), 1));
+    ASSERT_TRUE(gate.upload(content(100, 2), 2));
+    const auto list = content(30, 3);
+    const std::span<const std::byte> all{list};
+    ASSERT_TRUE(gate.gate.snapshot({.n = 3, .total = 30, .offset = 0, .tail = all.first(20)}));
+    EXPECT_TRUE(gate.events.empty());
+    ASSERT_TRUE(gate.gate.snapshot({.n = 3, .total = 30, .offset = 20, .tail = all.subspan(20)}));
+    ASSERT_NE(gate.last<Snapshot>(), nullptr);
+    EXPECT_EQ(gate.last<Snapshot>()->changes.bytes, list);
+    EXPECT_EQ(gate.last<Snapshot>()->changes.payloads.size(), 2U);
+}
+
+void expectRefused(const Result<void>& outcome, const char* why, Errc code = Errc::protocol) {
+    ASSERT_FALSE(outcome);
+    EXPECT_EQ(outcome.error().code, code);
+    EXPECT_NE(outcome.error().what.find(why), std::string::npos) << outcome.error().what;
+}
+
+TEST(FrameGate, RefusesWhatIsOutOfTurn) {
+    Gate gate;
+    ASSERT_TRUE(gate.snapshot(5));
+    expectRefused(gate.snapshot(5), "second Snapshot");
+    expectRefused(gate.frame(7), "Frame 7 after frame 5");
+    expectRefused(gate.gate.swap({.n = 6}), "Swap 6 after frame 5");
+    expectRefused(Gate{}.gate.payload({.total = 10, .offset = 5, .tail = content(5, 1)}), "byte 0");
+    Gate fit;
+    ASSERT_TRUE(fit.snapshot(5));
+    expectRefused(fit.gate.fit({.n = 6}), "Fit 6 after frame 5");
+}
+
+TEST(FrameGate, RefusesPartsOfDifferentPayloads) {
+    Gate gate;
+    const auto a = content(10, 1);
+    const std::span<const std::byte> part{a};
+    ASSERT_TRUE(gate.gate.payload({.hash = {1, 1}, .total = 20, .offset = 0, .tail = part}));
+    expectRefused(gate.gate.payload({.hash = {2, 2}, .total = 20, .offset = 10, .tail = part}),
+                  "found byte 10");
+    expectRefused(gate.gate.payload({.hash = {1, 1}, .total = 20, .offset = 5, .tail = part}),
+                  "found byte 5");
+}
+
+TEST(FrameGate, RefusesAPayloadThatIsNotWhatItsHashSays) {
+    Gate gate;
+    const auto bytes = content(10, 1);
+    expectRefused(gate.gate.payload({.hash = {1, 2}, .total = 10, .offset = 0, .tail = bytes}),
+                  "content hash");
+}
+
+TEST(FrameGate, KeepsNoMorePayloadsThanItsBudget) {
+    Gate gate{100};
+    ASSERT_TRUE(gate.upload(content(60, 1), 1));
+    expectRefused(gate.upload(content(60, 2), 2), "the limit is 100", Errc::limit);
+}
+
+}  // namespace
+}  // namespace gnomon::net
