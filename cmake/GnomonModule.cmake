@@ -8,6 +8,7 @@ function(gnomon_add_module name)
   target_sources(gnomon_${name} PUBLIC
     FILE_SET HEADERS BASE_DIRS include FILES ${arg_HEADERS})
   target_include_directories(gnomon_${name} PRIVATE src)
+  target_compile_features(gnomon_${name} PUBLIC cxx_std_20)
   target_link_libraries(gnomon_${name} PUBLIC ${arg_DEPENDS}
     PRIVATE ${arg_PRIVATE_DEPENDS} gnomon_options)
   set_target_properties(gnomon_${name} PROPERTIES

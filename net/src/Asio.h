@@ -2,8 +2,6 @@
 
 // The only door to Asio; private to net, so that nobody else pays for it. <utility> comes first
 // because Asio 1.18's headers use std::exchange without it.
-#include <utility>
-
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/connect.hpp>
 #include <boost/asio/executor_work_guard.hpp>
@@ -12,9 +10,9 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/write.hpp>
-
 #include <chrono>
 #include <cstdint>
+#include <utility>
 
 namespace gnomon::net {
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "Channel.h"
-
 #include <cstdint>
 #include <deque>
 #include <functional>
+
+#include "Channel.h"
 
 namespace gnomon::net {
 

@@ -57,15 +57,14 @@ void Channel::read() {
     } else {
         room = std::span{input_}.subspan(end_);
     }
-    socket_.async_read_some(asio::buffer(room.data(), room.size()),
-                            [self = shared_from_this()](error_code ec, std::size_t count) {
-                                self->reading_ = false;
-                                if (self->closed_) return;
-                                if (!ec) return self->arrived(count);
-                                self->fail({.code = Errc::disconnected,
-                                            .what = self->remote_,
-                                            .cause = ec});
-                            });
+    socket_.async_read_some(
+        asio::buffer(room.data(), room.size()),
+        [self = shared_from_this()](error_code ec, std::size_t count) {
+            self->reading_ = false;
+            if (self->closed_) return;
+            if (!ec) return self->arrived(count);
+            self->fail({.code = Errc::disconnected, .what = self->remote_, .cause = ec});
+        });
 }
 
 void Channel::arrived(std::size_t count) {
@@ -183,20 +182,16 @@ void Channel::flush() {
     buffers_.clear();
     for (const Part& part : inFlight_) buffers_.emplace_back(part.bytes.data(), part.bytes.size());
     const BufferView view{.first = buffers_.data(), .last = buffers_.data() + buffers_.size()};
-    asio::async_write(socket_, view,
-                      [self = shared_from_this()](error_code ec, std::size_t count) {
-                          self->writing_ = false;
-                          self->bytesSent_ += count;
-                          self->inFlight_.clear();
-                          if (self->closed_) return;
-                          if (ec)
-                              return self->fail({.code = Errc::disconnected,
-                                                 .what = self->remote_,
-                                                 .cause = ec});
-                          if (!self->queue_.empty()) return self->flush();
-                          if (self->finishing_) return self->end();
-                          if (self->receiver_ != nullptr) self->receiver_->drained(*self);
-                      });
+    asio::async_write(socket_, view, [self = shared_from_this()](error_code ec, std::size_t count) {
+        self->writing_ = false;
+        self->bytesSent_ += count;
+        self->inFlight_.clear();
+        if (self->closed_) return;
+        if (ec) return self->fail({.code = Errc::disconnected, .what = self->remote_, .cause = ec});
+        if (!self->queue_.empty()) return self->flush();
+        if (self->finishing_) return self->end();
+        if (self->receiver_ != nullptr) self->receiver_->drained(*self);
+    });
 }
 
 void Channel::finish() {

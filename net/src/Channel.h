@@ -1,7 +1,5 @@
 #pragma once
 
-#include "Asio.h"
-
 #include <gnomon/base/Error.h>
 #include <gnomon/net/MessageType.h>
 
@@ -11,6 +9,8 @@
 #include <span>
 #include <string>
 #include <vector>
+
+#include "Asio.h"
 
 namespace gnomon::net {
 
@@ -99,8 +99,8 @@ private:
     std::string remote_;
 
     std::vector<std::byte> input_;
-    std::size_t begin_ = 0, end_ = 0;    // unread part of input_
-    std::vector<std::byte> large_;       // a body that does not fit into input_
+    std::size_t begin_ = 0, end_ = 0;  // unread part of input_
+    std::vector<std::byte> large_;     // a body that does not fit into input_
     std::size_t largeArrived_ = 0, largeLength_ = 0;
     std::uint32_t largeType_ = 0;
 

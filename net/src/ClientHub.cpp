@@ -1,10 +1,9 @@
+#include <fmt/format.h>
 #include <gnomon/net/ClientHub.h>
 
-#include "HubCore.h"
-
-#include <fmt/format.h>
-
 #include <thread>
+
+#include "HubCore.h"
 
 namespace gnomon::net {
 
@@ -47,8 +46,8 @@ public:
     /// False at the deadline and after shutdown.
     bool waitForChange(std::uint64_t seen, Deadline deadline) {
         std::unique_lock lock{mailbox_.mutex};
-        mailbox_.changed.wait_until(
-            lock, deadline, [&] { return mailbox_.version != seen || mailbox_.stopped; });
+        mailbox_.changed.wait_until(lock, deadline,
+                                    [&] { return mailbox_.version != seen || mailbox_.stopped; });
         return mailbox_.version != seen && !mailbox_.stopped;
     }
 
@@ -107,8 +106,7 @@ Result<void> ClientHub::waitForAll(
             missing += server.text.rfind(label, 0) == 0 ? server.text : label + ": " + server.text;
         }
         if (missing.empty()) return {};
-        if (!impl_->waitForChange(seen, deadline) &&
-            std::chrono::steady_clock::now() >= deadline)
+        if (!impl_->waitForChange(seen, deadline) && std::chrono::steady_clock::now() >= deadline)
             return fail(Errc::timeout, "not all servers take part: " + missing);
         const std::lock_guard lock{impl_->mailbox_.mutex};
         if (impl_->mailbox_.stopped) return fail(Errc::disconnected, "the hub was shut down");
@@ -138,10 +136,10 @@ Result<std::vector<TileImage>> ClientHub::takeImages(std::uint64_t n, Deadline d
         if (impl_->waitForChange(seen, deadline) || std::chrono::steady_clock::now() < deadline)
             continue;
         const auto who = impl_->ask([n](HubCore& core) { return core.imagesWaitFor(n); });
-        return fail(Errc::timeout, fmt::format("the pictures of frame {} did not arrive in time{}",
-                                               n, who && !who->empty() ? ": missing are those of " +
-                                                                             *who
-                                                                       : std::string{}));
+        return fail(
+            Errc::timeout,
+            fmt::format("the pictures of frame {} did not arrive in time{}", n,
+                        who && !who->empty() ? ": missing are those of " + *who : std::string{}));
     }
 }
 

@@ -41,9 +41,9 @@ private:
     const Sample* shortest() const noexcept {
         const std::size_t used = std::min(count_, samples_.size());
         if (used == 0) return nullptr;
-        return &*std::min_element(
-            samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(used),
-            [](const Sample& a, const Sample& b) { return a.trip < b.trip; });
+        return &*std::min_element(samples_.begin(),
+                                  samples_.begin() + static_cast<std::ptrdiff_t>(used),
+                                  [](const Sample& a, const Sample& b) { return a.trip < b.trip; });
     }
 
     std::array<Sample, 16> samples_{};

@@ -1,7 +1,6 @@
+#include <fmt/format.h>
 #include <gnomon/net/Codec.h>
 #include <gnomon/net/MessageType.h>
-
-#include <fmt/format.h>
 
 namespace gnomon::net {
 namespace detail {
@@ -36,29 +35,38 @@ Limit limitOf(Route route, std::uint32_t type) noexcept {
     const auto message = static_cast<MessageType>(type);
     using enum MessageType;
     switch (route) {
-        case Route::toServerGreeting: return message == clientHello ? upTo(mib) : Limit{};
+        case Route::toServerGreeting:
+            return message == clientHello ? upTo(mib) : Limit{};
         case Route::toServerControl:
             switch (message) {
-                case frame: return upTo(maxChangeBytes);
-                case fit: return upTo(16 * mib);
+                case frame:
+                    return upTo(maxChangeBytes);
+                case fit:
+                    return upTo(16 * mib);
                 case swap:
                 case ping:
-                case bye: return upTo(kib);
-                default: return {};
+                case bye:
+                    return upTo(kib);
+                default:
+                    return {};
             }
         case Route::toServerBulk:
             return message == payload || message == snapshot ? upTo(mib) : Limit{};
         case Route::toClientControl:
             switch (message) {
-                case serverHello: return upTo(mib);
+                case serverHello:
+                    return upTo(mib);
                 case refused:
-                case log: return upTo(64 * kib);
+                case log:
+                    return upTo(64 * kib);
                 case depth:
                 case ready:
                 case digest:
                 case event:
-                case pong: return upTo(kib);
-                default: return {};
+                case pong:
+                    return upTo(kib);
+                default:
+                    return {};
             }
         case Route::toClientBulk:
             if (message == refused) return upTo(64 * kib);
@@ -71,22 +79,38 @@ std::string_view name(MessageType type) noexcept {
     switch (type) {
         using enum MessageType;
         case clientHello:
-        case serverHello: return "Hello";
-        case frame: return "Frame";
-        case fit: return "Fit";
-        case swap: return "Swap";
-        case ping: return "Ping";
-        case bye: return "Bye";
-        case payload: return "Payload";
-        case snapshot: return "Snapshot";
-        case refused: return "Refused";
-        case depth: return "Depth";
-        case ready: return "Ready";
-        case digest: return "Digest";
-        case event: return "Event";
-        case pong: return "Pong";
-        case log: return "Log";
-        case image: return "Image";
+        case serverHello:
+            return "Hello";
+        case frame:
+            return "Frame";
+        case fit:
+            return "Fit";
+        case swap:
+            return "Swap";
+        case ping:
+            return "Ping";
+        case bye:
+            return "Bye";
+        case payload:
+            return "Payload";
+        case snapshot:
+            return "Snapshot";
+        case refused:
+            return "Refused";
+        case depth:
+            return "Depth";
+        case ready:
+            return "Ready";
+        case digest:
+            return "Digest";
+        case event:
+            return "Event";
+        case pong:
+            return "Pong";
+        case log:
+            return "Log";
+        case image:
+            return "Image";
     }
     return "unknown";
 }

@@ -47,9 +47,9 @@ Result<void> FrameGate::payload(const wire::Payload& part) {
     upload_.reset();
     field::Payload payload{std::move(whole.bytes)};
     if (payload.hash() != whole.hash)
-        return fail(Errc::protocol, fmt::format("payload {} of {} bytes has the content hash {}",
-                                                text(whole.hash), whole.total,
-                                                text(payload.hash())));
+        return fail(Errc::protocol,
+                    fmt::format("payload {} of {} bytes has the content hash {}", text(whole.hash),
+                                whole.total, text(payload.hash())));
     auto& kept = kept_[whole.hash];
     if (!kept.payload) keptBytes_ += payload.size();
     kept = {.payload = std::move(payload), .serial = whole.serial};
@@ -120,15 +120,15 @@ Result<void> FrameGate::drain() {
         } else if (auto* fit = std::get_if<Fit>(&front)) {
             const std::size_t bytes = bytesOf(fit->changes);
             if (fit->n != lastFrame_)
-                return fail(Errc::protocol, fmt::format("Fit {} after frame {}", fit->n,
-                                                        lastFrame_));
+                return fail(Errc::protocol,
+                            fmt::format("Fit {} after frame {}", fit->n, lastFrame_));
             waitingBytes_ -= bytes;
             emit_(std::move(*fit), bytes);
         } else {
             const Swap swap = std::get<Swap>(front);
             if (swap.n > lastFrame_)
-                return fail(Errc::protocol, fmt::format("Swap {} after frame {}", swap.n,
-                                                        lastFrame_));
+                return fail(Errc::protocol,
+                            fmt::format("Swap {} after frame {}", swap.n, lastFrame_));
             waitingBytes_ -= eventBytes;
             if (swap.n >= first_) emit_(swap, eventBytes);
         }

@@ -125,9 +125,8 @@ void HostCore::beginSession(std::shared_ptr<Channel> channel, wire::ClientHello 
     session_->sync = hello.sync;
     session_->control = std::move(channel);
     session_->gate = std::make_unique<FrameGate>(
-        options_.payloadBudget, [this](ServerEvent event, std::size_t bytes) {
-            inbox_.push(std::move(event), bytes);
-        });
+        options_.payloadBudget,
+        [this](ServerEvent event, std::size_t bytes) { inbox_.push(std::move(event), bytes); });
     inbox_.push(SchemaOffer{.session = session_->id,
                             .who = "client " + session_->control->remote(),
                             .schema = std::move(hello.schema)},
@@ -139,9 +138,8 @@ void HostCore::agreed(std::uint64_t id, Result<void> outcome, std::vector<std::b
     if (!session_ || session_->id != id) return;
     if (!outcome) return endSession(outcome.error(), true);
     session_->joined = true;
-    inbox_.push(ServerEvent{ClientJoined{.who = session_->control->remote(),
-                                         .sync = session_->sync}},
-                0);
+    inbox_.push(
+        ServerEvent{ClientJoined{.who = session_->control->remote(), .sync = session_->sync}}, 0);
     session_->control->send(Part::of(packet(wire::ServerHello{.server = options_.name,
                                                               .description = options_.description,
                                                               .schema = std::move(ourSchema)})));
@@ -164,7 +162,8 @@ Result<void> HostCore::control(MessageType type, std::span<const std::byte> body
                 body, [&](wire::Frame message) { return gate.frame(std::move(message)); });
             break;
         case MessageType::fit:
-            done = with<wire::Fit>(body, [&](const wire::Fit& message) { return gate.fit(message); });
+            done =
+                with<wire::Fit>(body, [&](const wire::Fit& message) { return gate.fit(message); });
             break;
         case MessageType::swap:
             done = with<wire::Swap>(body,
@@ -178,7 +177,8 @@ Result<void> HostCore::control(MessageType type, std::span<const std::byte> body
         case MessageType::bye:
             endSession({.code = Errc::disconnected, .what = "the client said goodbye"}, false);
             return {};
-        default: break;  // Route lets nothing else through
+        default:
+            break;  // Route lets nothing else through
     }
     if (!done) {
         endSession(done.error(), true);
@@ -190,11 +190,11 @@ Result<void> HostCore::control(MessageType type, std::span<const std::byte> body
 
 Result<void> HostCore::bulk(MessageType type, std::span<const std::byte> body) {
     FrameGate& gate = *session_->gate;
-    auto done =
-        type == MessageType::payload
-            ? with<wire::Payload>(body, [&](const wire::Payload& part) { return gate.payload(part); })
-            : with<wire::Snapshot>(body,
-                                   [&](const wire::Snapshot& part) { return gate.snapshot(part); });
+    auto done = type == MessageType::payload
+                    ? with<wire::Payload>(
+                          body, [&](const wire::Payload& part) { return gate.payload(part); })
+                    : with<wire::Snapshot>(
+                          body, [&](const wire::Snapshot& part) { return gate.snapshot(part); });
     if (!done) endSession(done.error(), true);
     throttle();  // frames that waited for payloads may have moved on
     return {};
@@ -214,9 +214,7 @@ void HostCore::answer(const wire::Ping& ping) {
 
 void HostCore::throttle() {
     if (!session_) return;
-    const auto over = [&] {
-        return session_->gate->waitingBytes() + inbox_.bytes() > maxBacklog;
-    };
+    const auto over = [&] { return session_->gate->waitingBytes() + inbox_.bytes() > maxBacklog; };
     if (over()) {
         session_->control->pause();
         inbox_.setThrottled(true);
@@ -235,10 +233,10 @@ void HostCore::watch() {
     // While we do not read, silence is our own doing.
     const auto due = (inbox_.throttled() ? SteadyClock::now() : heard) + options_.silentTimeout;
     if (SteadyClock::now() < due) return silentTimer_.at(due, [this] { watch(); });
-    endSession({.code = Errc::timeout,
-                .what = fmt::format("the client was silent for {} ms",
-                                    options_.silentTimeout.count())},
-               true);
+    endSession(
+        {.code = Errc::timeout,
+         .what = fmt::format("the client was silent for {} ms", options_.silentTimeout.count())},
+        true);
 }
 
 void HostCore::endSession(const Error& why, bool tellClient) {
@@ -279,19 +277,18 @@ void HostCore::sendImage(std::shared_ptr<const Image> image) {
     if (session_->images.waitingBytes() + image->pixels.size() > maxWaitingImages)
         return endSession({.code = Errc::limit, .what = "captured images are not read"}, true);
     const auto bytes = std::as_bytes(std::span{image->pixels});
-    session_->images.add(
-        {.whole = {.owner = image, .bytes = bytes},
-         .head = [image](std::uint64_t offset, std::span<const std::byte> chunk) {
-             return packet(wire::Image{.n = image->n,
-                                       .window = image->window,
-                                       .x = image->x,
-                                       .y = image->y,
-                                       .width = image->width,
-                                       .height = image->height,
-                                       .channels = image->channels,
-                                       .offset = offset,
-                                       .tail = chunk});
-         }});
+    session_->images.add({.whole = {.owner = image, .bytes = bytes},
+                          .head = [image](std::uint64_t offset, std::span<const std::byte> chunk) {
+                              return packet(wire::Image{.n = image->n,
+                                                        .window = image->window,
+                                                        .x = image->x,
+                                                        .y = image->y,
+                                                        .width = image->width,
+                                                        .height = image->height,
+                                                        .channels = image->channels,
+                                                        .offset = offset,
+                                                        .tail = chunk});
+                          }});
 }
 
 }  // namespace gnomon::net

@@ -1,17 +1,17 @@
 #pragma once
 
-#include "BulkSender.h"
-#include "Channel.h"
-#include "FrameGate.h"
-#include "Inbox.h"
-#include "Timer.h"
-
 #include <gnomon/net/ServerHost.h>
 
 #include <atomic>
 #include <list>
 #include <memory>
 #include <optional>
+
+#include "BulkSender.h"
+#include "Channel.h"
+#include "FrameGate.h"
+#include "Inbox.h"
+#include "Timer.h"
 
 namespace gnomon::net {
 

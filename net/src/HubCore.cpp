@@ -26,9 +26,8 @@ HubCore::HubCore(asio::io_context& io, const field::TypeRegistry& types, SyncOpt
 
 void HubCore::connect(ServerAddress address) {
     if (stopped_) return;
-    const auto found = std::find_if(peers_.begin(), peers_.end(), [&](const auto& peer) {
-        return peer->name() == address.name;
-    });
+    const auto found = std::find_if(peers_.begin(), peers_.end(),
+                                    [&](const auto& peer) { return peer->name() == address.name; });
     Peer* peer = nullptr;
     if (found != peers_.end()) {
         peer = found->get();
@@ -61,7 +60,13 @@ void HubCore::stop(std::function<void()> done) {
     watchTimer_.cancel();
     for (const auto& peer : peers_) peer->stop();
     stopTimer_.after(farewell, [this] { stopped_(); });
-    changed();
+    endIfSilent();
+}
+
+void HubCore::endIfSilent() {
+    const bool all =
+        std::all_of(peers_.begin(), peers_.end(), [](const auto& peer) { return peer->silent(); });
+    if (all) stopped_();
 }
 
 wire::ClientHello HubCore::greeting() {

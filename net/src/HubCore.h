@@ -1,9 +1,5 @@
 #pragma once
 
-#include "CaptureBoard.h"
-#include "PayloadLedger.h"
-#include "Peer.h"
-
 #include <gnomon/net/ClientHub.h>
 
 #include <atomic>
@@ -13,6 +9,10 @@
 #include <map>
 #include <memory>
 #include <mutex>
+
+#include "CaptureBoard.h"
+#include "PayloadLedger.h"
+#include "Peer.h"
 
 namespace gnomon::net {
 
@@ -113,6 +113,7 @@ private:
     void dropLate(Peer& peer);
     Milliseconds allowance() const;
     bool anyMember() const;
+    void endIfSilent();
 
     asio::io_context& io_;
     const field::TypeRegistry& types_;

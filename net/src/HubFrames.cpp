@@ -1,10 +1,10 @@
-#include "HubCore.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "HubCore.h"
 
 namespace gnomon::net {
 
@@ -23,7 +23,8 @@ void HubCore::advance() {
     while (!failure_) {
         tryFit();
         if (outstanding_ && barrierDone()) swapFrame();
-        const bool fitOpen = outstanding_ && outstanding_->frame.wantsDepth && !outstanding_->fitted;
+        const bool fitOpen =
+            outstanding_ && outstanding_->frame.wantsDepth && !outstanding_->fitted;
         if (!prepared_ && !unprepared_.empty() && !fitOpen) {
             flushAll();  // a Swap does not wait for the next frame's preparation
             const auto call = std::move(unprepared_.front());
@@ -69,8 +70,8 @@ void HubCore::encode(FrameCall& call) {
     frame.needed = ledger_.take(list, fresh);
     frame.released = ledger_.release(session_.takeUnusedPayloads());
     const bool wantsDepth = hooks_.fit && hooks_.wantsDepth && hooks_.wantsDepth(session_, call.n);
-    const bool digest = options_.digestEvery > 0 &&
-                        call.n % static_cast<std::uint64_t>(options_.digestEvery) == 0;
+    const bool digest =
+        options_.digestEvery > 0 && call.n % static_cast<std::uint64_t>(options_.digestEvery) == 0;
     if (call.capture) frame.flags |= wire::Frame::capture;
     if (wantsDepth) frame.flags |= wire::Frame::wantsDepth;
     if (digest) {

@@ -1,10 +1,10 @@
 // Who takes part: joining, being late, being lost.
-#include "HubCore.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "HubCore.h"
 
 namespace gnomon::net {
 namespace {
@@ -30,16 +30,13 @@ void HubCore::connected(Peer& peer) {
 void HubCore::uploadTo(Peer& peer, const PayloadLedger::Kept& kept) {
     auto owner = std::make_shared<const field::Payload>(kept.payload);
     const auto bytes = owner->bytes();
-    peer.bulk().add({.whole = {.owner = owner, .bytes = bytes},
-                     .head = [hash = kept.payload.hash(), serial = kept.serial,
-                              total = kept.payload.size()](std::uint64_t offset,
-                                                           std::span<const std::byte> chunk) {
-                         return packet(wire::Payload{.hash = hash,
-                                                     .serial = serial,
-                                                     .total = total,
-                                                     .offset = offset,
-                                                     .tail = chunk});
-                     }});
+    peer.bulk().add(
+        {.whole = {.owner = owner, .bytes = bytes},
+         .head = [hash = kept.payload.hash(), serial = kept.serial, total = kept.payload.size()](
+                     std::uint64_t offset, std::span<const std::byte> chunk) {
+             return packet(wire::Payload{
+                 .hash = hash, .serial = serial, .total = total, .offset = offset, .tail = chunk});
+         }});
 }
 
 void HubCore::sendSnapshot(Peer& peer) {
@@ -53,15 +50,13 @@ void HubCore::sendSnapshot(Peer& peer) {
                                          peer.label(), total, maxSnapshotBytes));
         return;  // it stays a joiner until its startTimeout
     }
-    peer.bulk().add({.whole = snapshot_,
-                     .head = [n = preparedN_, time = preparedTime_, total](
-                                 std::uint64_t offset, std::span<const std::byte> chunk) {
-                         return packet(wire::Snapshot{.n = n,
-                                                      .time = time,
-                                                      .total = total,
-                                                      .offset = offset,
-                                                      .tail = chunk});
-                     }});
+    peer.bulk().add(
+        {.whole = snapshot_,
+         .head = [n = preparedN_, time = preparedTime_, total](std::uint64_t offset,
+                                                               std::span<const std::byte> chunk) {
+             return packet(wire::Snapshot{
+                 .n = n, .time = time, .total = total, .offset = offset, .tail = chunk});
+         }});
 }
 
 /// A joiner takes part from the first frame that it finished while that frame was still fresh:
@@ -71,8 +66,7 @@ bool HubCore::mayJoin(std::uint64_t ready) const {
     if (ready >= (outstanding_ ? outstanding_->frame.n : sentN_)) return true;
     const auto found = std::find_if(sentLately_.begin(), sentLately_.end(),
                                     [&](const auto& sent) { return sent.first == ready; });
-    return found != sentLately_.end() &&
-           SteadyClock::now() - found->second < options_.timeout / 2;
+    return found != sentLately_.end() && SteadyClock::now() - found->second < options_.timeout / 2;
 }
 
 Result<void> HubCore::ready(Peer& peer, const Ready& ready) {
@@ -128,13 +122,10 @@ void HubCore::lost(Peer& peer, const Error&) {
     captures_.lost(peer.name());
     // Posted: peers are lost in loops over them.
     asio::post(io_, [this] {
-        if (stopped_) {
-            const bool all = std::all_of(peers_.begin(), peers_.end(),
-                                         [](const auto& other) { return other->silent(); });
-            if (all) stopped_();
-        } else {
+        if (stopped_)
+            endIfSilent();
+        else
             advance();
-        }
     });
 }
 
@@ -157,8 +148,7 @@ TimePoint HubCore::dueOf(const Peer& peer) const {
     const auto began = std::max(out.sentAt, peer.standing.memberSince);
     auto from = std::max(began, peer.bulk().lastProgress());
     auto due = from + options_.startTimeout;
-    if (out.firstReady)
-        due = std::max(from, *out.firstReady) + options_.timeout + allowance();
+    if (out.firstReady) due = std::max(from, *out.firstReady) + options_.timeout + allowance();
     const auto silent = std::max(began + options_.timeout,
                                  peer.lastHeard() + options_.timeout + 2 * options_.pingInterval);
     return std::min({due, silent, began + options_.startTimeout + allowance()});
@@ -187,8 +177,7 @@ void HubCore::look(bool confirmed) {
         if (peer->standing.member && peer->standing.lastReady < outstanding_->frame.n &&
             now >= dueOf(*peer))
             late.push_back(peer.get());
-    if (!late.empty() && !confirmed)
-        return watchTimer_.after(secondLook, [this] { look(true); });
+    if (!late.empty() && !confirmed) return watchTimer_.after(secondLook, [this] { look(true); });
     for (Peer* peer : late) dropLate(*peer);
     advance();  // also where nobody takes part and the frame's time is over
 }

@@ -65,8 +65,7 @@ void Peer::dial(Connected then) {
         address_.host, std::to_string(address_.port),
         [this, then, mine = attempt_](error_code failed, tcp::resolver::results_type found) {
             if (mine != attempt_) return;
-            if (failed)
-                return drop({.code = Errc::disconnected, .what = label(), .cause = failed});
+            if (failed) return drop({.code = Errc::disconnected, .what = label(), .cause = failed});
             std::vector<tcp::endpoint> ends;
             for (const auto& entry : found) ends.push_back(entry.endpoint());
             dialTo(std::move(ends), then);
@@ -78,8 +77,7 @@ void Peer::dialTo(std::vector<tcp::endpoint> ends, Connected then) {
     auto to = std::make_shared<const std::vector<tcp::endpoint>>(std::move(ends));
     asio::async_connect(
         *dialling_, *to,
-        [this, then, to, socket = dialling_, mine = attempt_](error_code ec,
-                                                              const tcp::endpoint&) {
+        [this, then, to, socket = dialling_, mine = attempt_](error_code ec, const tcp::endpoint&) {
             if (mine != attempt_) return;
             error_code ignored;
             // A loopback port nobody listens on can connect to itself, and would keep the server
@@ -207,8 +205,10 @@ Result<void> Peer::received(Channel& from, MessageType type, std::span<const std
                 owner_.log(m.level, label() + ": " + m.text);
                 return {};
             });
-        case MessageType::pong: return pongArrived(body);
-        default: return {};  // Route lets nothing else through
+        case MessageType::pong:
+            return pongArrived(body);
+        default:
+            return {};  // Route lets nothing else through
     }
 }
 
@@ -333,10 +333,12 @@ std::uint64_t Peer::bulkBytes() const noexcept {
 
 std::string Peer::stateText() const {
     switch (state_) {
-        case ServerState::waiting: return lastError_.empty() ? "not connected" : lastError_;
+        case ServerState::waiting:
+            return lastError_.empty() ? "not connected" : lastError_;
         case ServerState::connecting:
             return lastError_.empty() ? "connecting" : lastError_ + " (trying again)";
-        case ServerState::greeting: return "connected, no answer to Hello yet";
+        case ServerState::greeting:
+            return "connected, no answer to Hello yet";
         case ServerState::joining:
             if (bulk_.waitingBytes() > 0)
                 return fmt::format("loading ({:.1f} MB to be sent)",
@@ -344,7 +346,8 @@ std::string Peer::stateText() const {
             if (pong_ && pong_->activity == Activity::compiling) return "compiling";
             if (pong_ && pong_->activity == Activity::rendering) return "rendering its first frame";
             return "loading";
-        case ServerState::member: return "takes part";
+        case ServerState::member:
+            return "takes part";
     }
     return {};
 }

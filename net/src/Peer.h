@@ -1,16 +1,16 @@
 #pragma once
 
-#include "BulkSender.h"
-#include "Channel.h"
-#include "ClockFilter.h"
-#include "Timer.h"
-
 #include <gnomon/net/HubTypes.h>
 
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "BulkSender.h"
+#include "Channel.h"
+#include "ClockFilter.h"
+#include "Timer.h"
 
 namespace gnomon::net {
 
@@ -56,8 +56,7 @@ struct Standing {
 /// the clock. What frames it gets is the hub's business.
 class Peer final : public Receiver {
 public:
-    Peer(asio::io_context& io, ServerAddress address, const SyncOptions& options,
-         PeerOwner& owner);
+    Peer(asio::io_context& io, ServerAddress address, const SyncOptions& options, PeerOwner& owner);
 
     /// Connects now; a connection to another address ends.
     void open(ServerAddress address);

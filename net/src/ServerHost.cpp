@@ -1,30 +1,30 @@
-#include <gnomon/net/ServerHost.h>
-
-#include "HostCore.h"
-
 #include <fmt/format.h>
+#include <gnomon/net/ServerHost.h>
 
 #include <cstdlib>
 #include <thread>
+
+#include "HostCore.h"
 
 namespace gnomon::net {
 namespace {
 
 tcp::acceptor listen(asio::io_context& io, const ServerOptions& options) {
     const auto refuse = [&](const std::string& why, error_code ec = {}) {
-        return Failure{{.code = Errc::config,
-                        .what = fmt::format("server \"{}\": cannot listen on {}:{}{}", options.name,
-                                            options.address, options.port,
-                                            why.empty() ? why : ": " + why),
-                        .cause = ec}};
+        return Failure{
+            {.code = Errc::config,
+             .what = fmt::format("server \"{}\": cannot listen on {}:{}{}", options.name,
+                                 options.address, options.port, why.empty() ? why : ": " + why),
+             .cause = ec}};
     };
     error_code ec;
     const auto address = asio::ip::make_address(options.address, ec);
     if (ec) throw refuse("not a numeric IPv4 or IPv6 address, such as 127.0.0.1");
     const char* insecure = std::getenv("GNOMON_INSECURE");  // before any thread of ours starts
     if (!address.is_loopback() && (insecure == nullptr || std::string_view{insecure} != "1"))
-        throw refuse("other computers may only connect with a key, which this version cannot check "
-                     "yet (GNOMON_INSECURE=1 lets anybody in)");
+        throw refuse(
+            "other computers may only connect with a key, which this version cannot check "
+            "yet (GNOMON_INSECURE=1 lets anybody in)");
     const tcp::endpoint end{address, options.port};
     tcp::acceptor acceptor{io};
     if (acceptor.open(end.protocol(), ec)) throw refuse({}, ec);
@@ -72,8 +72,10 @@ public:
 
     void agree(const SchemaOffer& offer) {
         auto outcome = types_.agree(offer.schema, offer.who);
-        onCore([id = offer.session, outcome = std::move(outcome), schema = types_.schema()](
-                   HostCore& core) mutable { core.agreed(id, std::move(outcome), std::move(schema)); });
+        onCore([id = offer.session, outcome = std::move(outcome),
+                schema = types_.schema()](HostCore& core) mutable {
+            core.agreed(id, std::move(outcome), std::move(schema));
+        });
     }
 
     void busyWith(std::uint64_t frame, Activity activity) {

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "Asio.h"
-
 #include <functional>
 #include <memory>
+
+#include "Asio.h"
 
 namespace gnomon::net {
 
@@ -23,12 +23,11 @@ public:
     void at(TimePoint when, std::function<void()> call) {
         const std::uint64_t mine = ++*generation_;
         timer_.expires_at(when);
-        timer_.async_wait(
-            [generation = generation_, mine, call = std::move(call)](error_code ec) {
-                if (ec || *generation != mine) return;
-                ++*generation;  // no longer armed
-                call();
-            });
+        timer_.async_wait([generation = generation_, mine, call = std::move(call)](error_code ec) {
+            if (ec || *generation != mine) return;
+            ++*generation;  // no longer armed
+            call();
+        });
         armed_ = mine;
     }
     void cancel() {

@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(
                   "p.jsonl:2: time 1 does not come after 1"},
         WrongPath{"NoDirection", "{\"time\":0,\"eye\":[1,0,0],\"center\":[1,0,0]}",
                   "the same point"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& row) { return row.param.name; });
 
 TEST(CameraPath, DeepNestingIsRefusedWithoutACrash) {
     EXPECT_FALSE(CameraPath::parse(std::string(200'000, '['), "p.jsonl"));

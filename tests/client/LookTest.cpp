@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(
                 opening(1.0, 3.0)},
         BoxCase{"LopsidedWall", {.min = math::dvec3{-5, 0, -5}, .max = math::dvec3{5, 3, 5}},
                 Opening{.left = -1.5, .right = 0.2, .bottom = -0.9, .top = 0.1}}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& row) { return row.param.name; });
 
 TEST(Look, OfAnEmptyBoxIsFinite) {
     const Look look = lookAtBox({}, opening(1.0, 1.0));
@@ -63,7 +63,7 @@ TEST(DepthRange, EnclosesTheBox) {
         const auto range = depthRange(box, eye);
         EXPECT_GT(range.near, 0.0);
         EXPECT_LT(range.near, range.far);
-        if (distance > 1.0) EXPECT_LE(range.near, distance - 1.0);
+        EXPECT_LE(range.near, std::max(distance - 1.0, range.far / 2000.0));
         for (int i = 0; i < 8; ++i) EXPECT_GT(range.far, glm::length(box.corner(i) - eye));
     }
     EXPECT_EQ(depthRange({}, {}), DepthRange{});

@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(
         WrongCase{"MapSizeWord", {"--map-size", "big"}, "whole number"},
         WrongCase{"MapSizeTiny", {"--map-size", "1"}, "1"},
         WrongCase{"Backend", {"--backend", "vulkan"}, "egl, osmesa, glfw, none or auto"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& row) { return row.param.name; });
 
 }  // namespace
 }  // namespace gnomon::client

@@ -125,8 +125,8 @@ std::vector<std::string> wallFiles() {
     return names;
 }
 
-INSTANTIATE_TEST_SUITE_P(Configs, EveryWall, testing::ValuesIn(wallFiles()), [](const auto& info) {
-    std::string name = info.param.substr(0, info.param.find('.'));
+INSTANTIATE_TEST_SUITE_P(Configs, EveryWall, testing::ValuesIn(wallFiles()), [](const auto& row) {
+    std::string name = row.param.substr(0, row.param.find('.'));
     std::replace_if(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; },
                     '_');
     return name;

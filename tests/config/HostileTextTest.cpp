@@ -52,6 +52,24 @@ TEST(HostileText, DeepNestingIsRefused) {
     expectRefused("x = \"\"\"a\"\"\"\"\n" + repeated("a.", 400'000) + "a = 1");
 }
 
+TEST(HostileText, WhatTheTomlLibraryTakesForGrantedIsRefused) {
+    for (const char* text :
+         {"[=]",    "[.a]",  "[[=]]",  "[[a]=",  "a = [",        "a = {",        "[",
+          "[[",     "a.",    "a =",    "\"",     "'''",          "a = \"\\",     "a = 0x",
+          "a = 1_", "a = +", "a = 1e", "a = 1-", "a = \xd0\xa2", "\xc2\xa0a = 1"}) {
+        expectRefused(text);
+    }
+}
+
+TEST(HostileText, LettersBeyondAsciiMayBeInQuotesAndComments) {
+    const auto config =
+        parseConfig(replaced(smallWall, "name = \"small\"",
+                             "\xef\xbb\xbf# M\xc3\xbcnchen\nname = \"K\xc3\xb6ln\""),
+                    "wall.toml");
+    ASSERT_TRUE(config) << config.error().text();
+    EXPECT_EQ(config->name, "K\xc3\xb6ln");
+}
+
 TEST(HostileText, DotsInTextsAndCommentsAreNoKeys) {
     const std::string dots(1000, '.');
     const std::string text =

@@ -1,6 +1,6 @@
-#include "CaptureBoard.h"
-
 #include <gtest/gtest.h>
+
+#include "CaptureBoard.h"
 
 namespace gnomon::net {
 namespace {

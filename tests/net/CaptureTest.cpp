@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "TestServer.h"
-
 #include <set>
+
+#include "TestServer.h"
 
 namespace gnomon::net::test {
 namespace {

@@ -1,8 +1,8 @@
-#include "ClockFilter.h"
-
 #include <gtest/gtest.h>
 
 #include <random>
+
+#include "ClockFilter.h"
 
 namespace gnomon::net {
 namespace {

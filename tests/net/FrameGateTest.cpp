@@ -1,7 +1,7 @@
 // The server's two streams put together, without sockets.
-#include "FrameGate.h"
-
 #include <gtest/gtest.h>
+
+#include "FrameGate.h"
 
 namespace gnomon::net {
 namespace {
@@ -18,7 +18,8 @@ struct Gate {
     FrameGate gate;
 
     explicit Gate(std::uint64_t budget = 1'000'000)
-        : gate{budget, [this](ServerEvent event, std::size_t) { events.push_back(std::move(event)); }} {}
+        : gate{budget,
+               [this](ServerEvent event, std::size_t) { events.push_back(std::move(event)); }} {}
 
     Result<void> upload(const std::vector<std::byte>& bytes, std::uint64_t serial,
                         std::size_t chunk = 1000) {
@@ -36,8 +37,7 @@ struct Gate {
     Result<void> snapshot(std::uint64_t n) { return gate.snapshot({.n = n}); }
     Result<void> frame(std::uint64_t n, std::vector<wire::PayloadName> needed = {},
                        std::vector<wire::PayloadRelease> released = {}) {
-        return gate.frame(
-            {.n = n, .needed = std::move(needed), .released = std::move(released)});
+        return gate.frame({.n = n, .needed = std::move(needed), .released = std::move(released)});
     }
     template <class E>
     const E* last() const {

@@ -1,12 +1,11 @@
 // Who is let in, who is not, and what is said to them.
+#include <gnomon/net/Codec.h>
 #include <gtest/gtest.h>
+
+#include <cstring>
 
 #include "RawSocket.h"
 #include "TestServer.h"
-
-#include <gnomon/net/Codec.h>
-
-#include <cstring>
 
 namespace gnomon::net::test {
 namespace {
@@ -65,7 +64,8 @@ public:
 };
 
 TEST(Handshake, TypesThatDisagreeAreRefusedByTypeAndField) {
-    TestServer server{"left", {.types = [](field::TypeRegistry& types) { types.add<OtherThing>(); }}};
+    TestServer server{"left",
+                      {.types = [](field::TypeRegistry& types) { types.add<OtherThing>(); }}};
     TestHub hub;
     hub->connect(server.address());
     std::string text;
@@ -204,9 +204,9 @@ std::string listenError(ServerOptions options) {
 TEST(Handshake, APortThatIsTakenIsOneClearError) {
     TestServer server{"left"};
     const auto text = listenError({.port = server.port(), .name = "other"});
-    EXPECT_NE(text.find("server \"other\": cannot listen on 127.0.0.1:" +
-                        std::to_string(server.port())),
-              std::string::npos)
+    EXPECT_NE(
+        text.find("server \"other\": cannot listen on 127.0.0.1:" + std::to_string(server.port())),
+        std::string::npos)
         << text;
     EXPECT_NE(text.find("in use"), std::string::npos) << text;
 }

@@ -1,9 +1,9 @@
 // Servers that come late, and come back.
 #include <gtest/gtest.h>
 
-#include "TestServer.h"
-
 #include <algorithm>
+
+#include "TestServer.h"
 
 namespace gnomon::net::test {
 namespace {
@@ -34,8 +34,8 @@ TEST(Join, InTheMiddleOfARunBeginsWithTheStateOfThatMoment) {
     while (!joined && SteadyClock::now() < limit) drive();
     ASSERT_TRUE(joined);
     for (int n = 0; n < 30; ++n) drive();
-    ASSERT_TRUE(late.waitUntil(
-        [&](const Seen& s) { return !s.swaps.empty() && s.swaps.back() == last; }));
+    ASSERT_TRUE(
+        late.waitUntil([&](const Seen& s) { return !s.swaps.empty() && s.swaps.back() == last; }));
 
     const Seen seen = late.seen();
     EXPECT_EQ(seen.error, "");

@@ -1,9 +1,9 @@
 // Servers that die, hang or fall silent; clients that do.
 #include <gtest/gtest.h>
 
-#include "TestServer.h"
-
 #include <algorithm>
+
+#include "TestServer.h"
 
 namespace gnomon::net::test {
 namespace {

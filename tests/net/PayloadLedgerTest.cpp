@@ -1,6 +1,6 @@
-#include "PayloadLedger.h"
-
 #include <gtest/gtest.h>
+
+#include "PayloadLedger.h"
 
 namespace gnomon::net {
 namespace {

@@ -27,7 +27,15 @@ RawSocket::RawSocket(std::uint16_t port) : fd_{::socket(AF_INET, SOCK_STREAM | S
         throw std::runtime_error{"cannot connect to the test server"};
 }
 
-RawSocket::~RawSocket() { ::close(fd_); }
+RawSocket::~RawSocket() {
+    if (fd_ >= 0) ::close(fd_);
+}
+
+void RawSocket::reset() {
+    const linger now{.l_onoff = 1, .l_linger = 0};
+    ::setsockopt(fd_, SOL_SOCKET, SO_LINGER, &now, sizeof now);
+    ::close(std::exchange(fd_, -1));
+}
 
 void RawSocket::send(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
@@ -73,6 +81,12 @@ DeafListener::DeafListener() : fd_{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC,
         ::listen(fd_, 8) != 0 || ::getsockname(fd_, reinterpret_cast<sockaddr*>(&at), &length) != 0)
         throw std::runtime_error{"cannot listen"};
     port_ = ntohs(at.sin_port);
+}
+
+RawSocket DeafListener::accept() {
+    pollfd wait{.fd = fd_, .events = POLLIN, .revents = 0};
+    ::poll(&wait, 1, 30'000);
+    return RawSocket{RawSocket::Adopt{::accept(fd_, nullptr, nullptr)}};
 }
 
 DeafListener::~DeafListener() { ::close(fd_); }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon::net::test {
@@ -14,6 +15,8 @@ class RawSocket {
 public:
     explicit RawSocket(std::uint16_t port);
     ~RawSocket();
+    RawSocket(RawSocket&& other) noexcept : fd_{std::exchange(other.fd_, -1)} {}
+    RawSocket& operator=(RawSocket&&) = delete;
     RawSocket(const RawSocket&) = delete;
     RawSocket& operator=(const RawSocket&) = delete;
 
@@ -22,12 +25,20 @@ public:
     std::vector<std::byte> readAll(bool* closed);
     /// Until at least so many bytes came.
     std::vector<std::byte> read(std::size_t atLeast);
+    /// Closes with a reset, as a killed program with unread input does.
+    void reset();
 
 private:
+    friend class DeafListener;
+    struct Adopt {
+        int fd = -1;
+    };
+    explicit RawSocket(Adopt adopted) : fd_{adopted.fd} {}
+
     int fd_ = -1;
 };
 
-/// A port where connections are taken and nothing is said.
+/// A port where connections are taken and nothing is said, but for what a test says itself.
 class DeafListener {
 public:
     DeafListener();
@@ -35,6 +46,7 @@ public:
     DeafListener(const DeafListener&) = delete;
     DeafListener& operator=(const DeafListener&) = delete;
     std::uint16_t port() const { return port_; }
+    RawSocket accept();
 
 private:
     int fd_ = -1;

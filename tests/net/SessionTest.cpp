@@ -1,10 +1,10 @@
 // Frames in step: order, contents, cost.
 #include <gtest/gtest.h>
 
-#include "TestServer.h"
-
 #include <atomic>
 #include <numeric>
+
+#include "TestServer.h"
 
 namespace gnomon::net::test {
 namespace {

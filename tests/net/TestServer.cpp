@@ -10,13 +10,13 @@ TestServer::TestServer(std::string name, TestServerOptions options)
         options_.types(types_);
     else
         types_ = testTypes();
-    host_ = std::make_unique<ServerHost>(ServerOptions{.port = options_.port,
-                                                       .name = name_,
-                                                       .description = "test server",
-                                                       .exitWithClient = options_.exitWithClient,
-                                                       .handshakeTimeout =
-                                                           options_.handshakeTimeout},
-                                         types_);
+    host_ =
+        std::make_unique<ServerHost>(ServerOptions{.port = options_.port,
+                                                   .name = name_,
+                                                   .description = "test server",
+                                                   .exitWithClient = options_.exitWithClient,
+                                                   .handshakeTimeout = options_.handshakeTimeout},
+                                     types_);
     thread_ = std::thread{[this] { run(); }};
 }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "TestTypes.h"
-
 #include <gnomon/net/ClientHub.h>
 #include <gnomon/net/ServerHost.h>
 
@@ -14,6 +12,8 @@
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "TestTypes.h"
 
 namespace gnomon::net::test {
 

@@ -111,15 +111,21 @@ private:
         const std::size_t at = below(things_.size());
         const Thing& thing = *things_[at];
         switch (what) {
-            case 1: place(thing); break;
-            case 2: field::edit(thing)->numbers.pushBack(static_cast<std::int32_t>(random_())); break;
+            case 1:
+                place(thing);
+                break;
+            case 2:
+                field::edit(thing)->numbers.pushBack(static_cast<std::int32_t>(random_()));
+                break;
             // Few different contents, so that payloads are shared, dropped and come back.
             case 3: {
                 std::mt19937 content{static_cast<unsigned>(below(6))};
                 field::edit(thing)->data = randomPayload(content, 1000 + 200'000 * below(2));
                 break;
             }
-            case 4: field::edit(thing)->data = field::Payload{}; break;
+            case 4:
+                field::edit(thing)->data = field::Payload{};
+                break;
             default:
                 if (aspect_.destroy(thing))
                     things_.erase(things_.begin() + static_cast<std::ptrdiff_t>(at));

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "KeyParts.h"
+#include "Precheck.h"
 #include "Text.h"
 
 // The library is compiled here and nowhere else. It recurses once for each nested value.
@@ -103,12 +103,8 @@ std::string found(const Node& node) {
 
 std::optional<Node> parseToml(std::string_view text, std::string_view filename,
                               std::vector<Finding>& findings) {
-    if (auto deep = keyOfManyParts(text)) {
-        deep->file = filename;
-        findings.push_back(
-            {.place = *deep,
-             .what = fmt::format("a dotted key of more than {} parts, known keys have at most 4",
-                                 maxKeyParts)});
+    if (auto refused = precheck(text, filename)) {
+        findings.push_back(*std::move(refused));
         return {};
     }
     const toml::parse_result result = toml::parse(text, filename);

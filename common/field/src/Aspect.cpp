@@ -13,15 +13,39 @@ std::string nameOf(const FieldContainer& c) {
            std::to_string(c.id().counter());
 }
 
+std::string nameOf(Id id) {
+    return "container " + std::to_string(id.space()) + ":" + std::to_string(id.counter());
+}
+
+tl::unexpected<Error> refused(const Reader& from, const std::string& why) {
+    return fail(Errc::protocol, "change list, byte " + std::to_string(from.at()) + ": " + why);
+}
+
 }  // namespace
 
 Payload PayloadStore::find(const Hash128& hash) const {
-    const auto found = known_.find(hash);
-    return found == known_.end() ? Payload{} : Payload{found->second.lock()};
+    if (const auto found = used_.find(hash); found != used_.end()) return found->second.payload;
+    const auto found = arrived_.find(hash);
+    return found == arrived_.end() ? Payload{} : found->second;
 }
 
-void PayloadStore::know(const Payload& payload) {
-    if (payload) known_[payload.hash()] = payload.data_;
+void PayloadStore::arrive(const std::vector<Payload>& payloads) {
+    for (const Payload& payload : payloads)
+        if (payload) arrived_.try_emplace(payload.hash(), payload);
+}
+
+void PayloadStore::endArrival() { arrived_.clear(); }
+
+void PayloadStore::use(const Payload& payload) {
+    Used& entry = used_[payload.hash()];
+    if (entry.fields++ == 0) entry.payload = payload;
+}
+
+bool PayloadStore::drop(const Hash128& hash) {
+    const auto found = used_.find(hash);
+    if (found == used_.end() || --found->second.fields > 0) return false;
+    used_.erase(found);
+    return true;
 }
 
 Aspect::Aspect(const TypeRegistry& types, std::uint16_t space, bool recordLocal)
@@ -71,44 +95,39 @@ Mask Aspect::settle(FieldContainer& container) {
 void Aspect::finishEdit(FieldContainer& container) {
     const Mask mask = settle(container);
     if (mask == 0) return;
-    const auto counted = count(log_);
-    log_ = {};
+    const auto counted = countUses();
     GNOMON_EXPECTS(counted.has_value(), "a field refers to a container that does not exist");
     if (!recorded(container)) return;
     if (container.pending_ == 0 && !container.uncommitted_) changed_.push_back(container.id_);
     container.pending_ |= mask;
 }
 
-Result<void> Aspect::count(const UseLog& log) {
-    for (const Id id : log.addedRefs) {
+Result<void> Aspect::countUses() {
+    if (log_.empty()) return {};
+    Id missing;
+    for (const Id id : log_.addedRefs) {
         const auto found = containers_.find(id);
         if (found == containers_.end())
-            return fail(Errc::protocol, "a field refers to container " +
-                                            std::to_string(id.space()) + ":" +
-                                            std::to_string(id.counter()) +
-                                            ", which does not exist");
-        ++found->second->references_;
+            missing = id;
+        else
+            ++found->second->references_;
     }
-    for (const Id id : log.droppedRefs) {
+    for (const Id id : log_.droppedRefs) {
         const auto found = containers_.find(id);
         if (found != containers_.end()) --found->second->references_;
     }
-    for (const Payload& payload : log.addedPayloads) {
-        payloads_.know(payload);
-        ++payloadUses_[payload.hash()];
-    }
-    for (const Payload& payload : log.droppedPayloads) {
-        const auto found = payloadUses_.find(payload.hash());
-        if (found == payloadUses_.end() || --found->second > 0) continue;
-        payloadUses_.erase(found);
-        payloads_.forget(payload.hash());
-        unusedPayloads_.push_back(payload.hash());
-    }
+    for (const Payload& payload : log_.addedPayloads) payloads_.use(payload);
+    for (const Payload& payload : log_.droppedPayloads)
+        if (payloads_.drop(payload.hash())) unusedPayloads_.push_back(payload.hash());
+    log_.clear();
+    if (missing)
+        return fail(Errc::protocol,
+                    "a field refers to " + nameOf(missing) + ", which does not exist");
     return {};
 }
 
 std::vector<Hash128> Aspect::takeUnusedPayloads() {
-    std::erase_if(unusedPayloads_, [&](const Hash128& h) { return payloadUses_.contains(h); });
+    std::erase_if(unusedPayloads_, [&](const Hash128& h) { return payloads_.used(h); });
     return std::exchange(unusedPayloads_, {});
 }
 
@@ -118,7 +137,9 @@ Result<void> Aspect::destroy(const FieldContainer& container) {
         return fail(Errc::edit, nameOf(container) + " cannot be destroyed: " +
                                     std::to_string(container.references_) +
                                     " field(s) still refer to it");
-    remove(const_cast<FieldContainer&>(container), nullptr);
+    auto& gone = const_cast<FieldContainer&>(container);
+    drop(gone, nullptr);
+    erase(gone);
     return {};
 }
 
@@ -132,19 +153,24 @@ Result<void> Aspect::destroyTree(const FieldContainer& container) {
         if (found == containers_.end() || found->second->references_ > 0 ||
             found->first.space() != space_)
             continue;
-        remove(*found->second, &open);
+        FieldContainer& gone = *found->second;
+        drop(gone, &open);
+        erase(gone);
     }
     return {};
 }
 
-void Aspect::remove(FieldContainer& container, std::vector<Id>* orphans) {
+void Aspect::drop(FieldContainer& container, std::vector<Id>* orphans) {
     container.changing(container.type_->allFields());
-    UseLog log;
-    container.dropUses(log);
+    container.dropUses(log_);
     if (orphans != nullptr)
-        orphans->insert(orphans->end(), log.droppedRefs.begin(), log.droppedRefs.end());
-    const auto counted = count(log);
+        orphans->insert(orphans->end(), log_.droppedRefs.begin(), log_.droppedRefs.end());
+    const auto counted = countUses();
     GNOMON_EXPECTS(counted.has_value(), "dropping references cannot fail");
+    container.dropped_ = true;
+}
+
+void Aspect::erase(FieldContainer& container) {
     digest_ -= container.digest_;
     const Id id = container.id_;
     if (recorded(container) && id.space() == space_ && !container.uncommitted_)
@@ -216,103 +242,123 @@ ChangeList Aspect::snapshot() const {
 }
 
 Result<void> Aspect::apply(const ChangeList& list, Applied* applied) {
-    for (const Payload& payload : list.payloads) payloads_.know(payload);
-    Reader from{list.bytes, &payloads_};
-    while (from.remaining() > 0) {
-        auto done = applyBlock(from, applied, false);
-        if (!done) return done;
-    }
-    return {};
+    return applyBlocks(list, applied, false);
 }
 
 Result<std::uint64_t> Aspect::adopt(const ChangeList& list) {
-    for (const Payload& payload : list.payloads) payloads_.know(payload);
     const std::uint64_t offset = Id::make(space_, nextCounter_ - 1).value;
-    Reader from{list.bytes, &payloads_, offset};
-    while (from.remaining() > 0) {
-        auto done = applyBlock(from, nullptr, true);
-        if (!done) return tl::unexpected{std::move(done).error()};
-    }
+    auto done = applyBlocks(list, nullptr, true);
+    if (!done) return tl::unexpected{std::move(done).error()};
     return offset;
 }
 
-Result<void> Aspect::applyBlock(Reader& from, Applied* applied, bool own) {
-    const auto refuse = [&](const std::string& why) {
-        return fail(Errc::protocol,
-                    "change list, byte " + std::to_string(from.at()) + ": " + why);
-    };
-    const auto describe = [](Id id) {
-        return "container " + std::to_string(id.space()) + ":" + std::to_string(id.counter());
-    };
-    const auto version = from.scalar<std::uint8_t>();
-    if (!from.failed() && version != ChangeList::version)
-        return refuse("version " + std::to_string(version) + ", expected " +
-                      std::to_string(ChangeList::version));
-    const auto creations = from.scalar<std::uint32_t>();
-    const auto changes = from.scalar<std::uint32_t>();
-    const auto releases = from.scalar<std::uint32_t>();
+Result<void> Aspect::applyBlocks(const ChangeList& list, Applied* applied, bool own) {
+    payloads_.arrive(list.payloads);
+    // With an offset the reader refuses ids so large that they would leave those not yet given out.
+    Reader from{list.bytes, &payloads_, own ? Id::make(space_, nextCounter_ - 1).value : 0};
+    Result<void> done;
+    while (done && from.remaining() > 0) done = applyBlock(from, applied, own);
+    payloads_.endArrival();
+    return done;
+}
 
-    for (std::uint32_t i = 0; i < creations; ++i) {
+Result<void> Aspect::applyCreations(Reader& from, std::uint32_t count, Applied* applied, bool own) {
+    for (std::uint32_t i = 0; i < count; ++i) {
         const auto typeId = from.scalar<TypeId>();
         const Id id = from.id();
-        if (from.failed()) return refuse(from.why());
+        if (from.failed()) return refused(from, from.why());
         const TypeInfo* type = types_.find(typeId);
         if (type == nullptr)
-            return refuse(describe(id) + " is of unknown type " + std::to_string(typeId));
-        if (!id || (own && (id.space() != space_ || id.counter() < nextCounter_)))
-            return refuse("id out of range");
+            return refused(from, nameOf(id) + " is of unknown type " + std::to_string(typeId));
+        if (!id) return refused(from, "a container with id 0");
         if (!own && space_ != 0 && id.space() == space_)
-            return refuse(describe(id) + " is not the sender's to create");
-        if (containers_.contains(id)) return refuse(describe(id) + " is created twice");
+            return refused(from, nameOf(id) + " is not the sender's to create");
+        if (containers_.contains(id)) return refused(from, nameOf(id) + " is created twice");
         FieldContainer& made = insert(*type, id);
+        if (own) nextCounter_ = std::max(nextCounter_, id.counter() + 1);
         if (own && recorded(made)) {
             made.uncommitted_ = true;
             created_.push_back(id);
         }
         if (applied != nullptr) applied->created.push_back(id);
     }
-    if (own && creations > 0)
-        for (const auto& [id, container] : containers_)
-            if (id.space() == space_) nextCounter_ = std::max(nextCounter_, id.counter() + 1);
+    return {};
+}
 
-    std::vector<FieldContainer*> touched;
-    touched.reserve(std::min<std::size_t>(changes, from.remaining() / 12));
-    for (std::uint32_t i = 0; i < changes; ++i) {
+Result<void> Aspect::applyChanges(Reader& from, std::uint32_t count,
+                                  std::vector<FieldContainer*>& touched, Applied* applied,
+                                  bool own) {
+    touched.reserve(std::min<std::size_t>(count, from.remaining() / 12));
+    for (std::uint32_t i = 0; i < count; ++i) {
         const Id id = from.id();
         const auto mask = from.scalar<Mask>();
-        if (from.failed()) return refuse(from.why());
+        if (from.failed()) return refused(from, from.why());
         const auto found = containers_.find(id);
-        if (found == containers_.end()) return refuse(describe(id) + " does not exist");
+        if (found == containers_.end()) return refused(from, nameOf(id) + " does not exist");
         FieldContainer& container = *found->second;
-        const auto where = [&] { return describe(id) + " (" + container.type_->name + "): "; };
+        const auto where = [&] { return nameOf(id) + " (" + container.type_->name + "): "; };
+        if (!own && space_ != 0 && id.space() == space_)
+            return refused(from, where() + "not the sender's to change");
         if ((mask & ~container.type_->allFields()) != 0)
-            return refuse(where() + "mask " + std::to_string(mask) + " names fields it has not");
+            return refused(from,
+                           where() + "mask " + std::to_string(mask) + " names fields it has not");
         container.changing(mask);
         container.read(from, mask);
-        if (from.failed()) return refuse(where() + from.why());
+        // Settled also where it failed, so that the counts stay true to the fields.
         settle(container);
-        if (!log_.empty()) {
-            const auto counted = count(log_);
-            log_ = {};
-            if (!counted) return refuse(where() + counted.error().what);
-        }
+        const auto counted = countUses();
+        if (from.failed()) return refused(from, where() + from.why());
+        if (!counted) return refused(from, where() + counted.error().what);
         container.clearRanges();
         container.changed(mask);
         touched.push_back(&container);
         if (applied != nullptr) applied->changed.push_back({.id = id, .mask = mask});
     }
-    for (const FieldContainer* container : touched) {
-        auto sound = container->validate();
-        if (!sound) return refuse(sound.error().what);
-    }
-    for (std::uint32_t i = 0; i < releases; ++i) {
+    return {};
+}
+
+Result<void> Aspect::applyReleases(Reader& from, std::uint32_t count,
+                                   std::vector<FieldContainer*>& going, bool own) {
+    going.reserve(std::min<std::size_t>(count, from.remaining() / 8));
+    for (std::uint32_t i = 0; i < count; ++i) {
         const Id id = from.id();
-        if (from.failed()) return refuse(from.why());
+        if (from.failed()) return refused(from, from.why());
         const auto found = containers_.find(id);
-        if (found == containers_.end()) return refuse(describe(id) + " does not exist");
-        if (found->second->references_ > 0)
-            return refuse(describe(id) + " is released but still referred to");
-        remove(*found->second, nullptr);
+        if (found == containers_.end() || found->second->dropped_)
+            return refused(from, nameOf(id) + " does not exist");
+        if (!own && space_ != 0 && id.space() == space_)
+            return refused(from, nameOf(id) + " is not the sender's to release");
+        drop(*found->second, nullptr);
+        going.push_back(found->second.get());
+    }
+    return {};
+}
+
+Result<void> Aspect::applyBlock(Reader& from, Applied* applied, bool own) {
+    const auto version = from.scalar<std::uint8_t>();
+    if (version != ChangeList::version)
+        return refused(from, "version " + std::to_string(version) + ", expected " +
+                                 std::to_string(ChangeList::version));
+    const auto creations = from.scalar<std::uint32_t>();
+    const auto changes = from.scalar<std::uint32_t>();
+    const auto releases = from.scalar<std::uint32_t>();
+    if (from.failed()) return refused(from, from.why());
+    std::vector<FieldContainer*> touched;
+    std::vector<FieldContainer*> going;
+    if (auto done = applyCreations(from, creations, applied, own); !done) return done;
+    if (auto done = applyChanges(from, changes, touched, applied, own); !done) return done;
+    // Those released together may refer to each other in any way, so all let go before any goes.
+    if (auto done = applyReleases(from, releases, going, own); !done) return done;
+    for (const FieldContainer* container : touched) {
+        if (container->dropped_) continue;
+        auto sound = container->validate();
+        if (!sound) return refused(from, sound.error().what);
+    }
+    for (FieldContainer* container : going) {
+        const Id id = container->id_;
+        if (container->references_ > 0)
+            return refused(from, nameOf(id) + " is released but still referred to");
+        erase(*container);
         if (applied != nullptr) applied->destroyed.push_back(id);
     }
     return {};

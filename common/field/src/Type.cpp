@@ -1,9 +1,10 @@
 #include <gnomon/field/FieldContainer.h>
 #include <gnomon/field/Type.h>
 
-#include "Opaque.h"
-
 #include <algorithm>
+#include <unordered_set>
+
+#include "Opaque.h"
 
 namespace gnomon::field {
 namespace {
@@ -75,6 +76,7 @@ Result<void> TypeRegistry::agree(std::span<const std::byte> schema, std::string_
     };
     Reader from{schema};
     std::vector<TypeInfo> theirs;
+    std::unordered_set<TypeId> ids;
     const auto count = from.scalar<std::uint32_t>();
     for (std::uint32_t i = 0; i < count && !from.failed(); ++i) {
         TypeInfo type{.name = from.string(), .opaque = true, .make = makeOpaque};
@@ -89,6 +91,8 @@ Result<void> TypeRegistry::agree(std::span<const std::byte> schema, std::string_
                               "\": unknown layout \"" + field.layout + "\"");
             type.fields.push_back(std::move(field));
         }
+        if (!from.failed() && !ids.insert(type.id).second)
+            return refuse("type \"" + type.name + "\" is named twice, or has another one's id");
         theirs.push_back(std::move(type));
     }
     if (from.failed() || from.remaining() > 0)

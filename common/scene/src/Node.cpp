@@ -43,24 +43,34 @@ void Node::removeChild(const Node& child) {
 void Node::changing(field::Mask mask) {
     if ((mask & field::maskOf<Node>("children")) == 0) return;
     for (const auto& ref : children_) {
-        const Node* child = aspect().get(ref);
-        if (child != nullptr && child->parent_.id == id()) const_cast<Node*>(child)->parent_ = {};
+        auto* child = const_cast<Node*>(aspect().get(ref));
+        if (child == nullptr) continue;
+        if (child->parent_.id == id()) child->parent_ = {};
+        if (child->former_.id == id()) child->former_ = {};
     }
 }
 
 void Node::changed(field::Mask mask) {
     if ((mask & field::maskOf<Node>("children")) == 0) return;
-    for (const auto& ref : children_)
-        if (const Node* child = aspect().get(ref))
-            const_cast<Node*>(child)->parent_ = Ref<Node>{*this};
+    std::uint32_t place = 0;
+    for (const auto& ref : children_) {
+        if (auto* child = const_cast<Node*>(aspect().get(ref))) {
+            if (child->parent_ && child->parent_.id != id()) child->former_ = child->parent_;
+            child->parent_ = Ref<Node>{*this};
+            child->place_ = place;
+        }
+        ++place;
+    }
 }
 
 Result<void> Node::validate() const {
-    for (const auto& ref : children_) {
-        const Node* child = aspect().get(ref);
+    for (std::uint32_t i = 0; i < children_.size(); ++i) {
+        const Node* child = aspect().get(children_[i]);
         if (child == nullptr) return fail(Errc::protocol, label() + " has a child that is no node");
-        if (child->parent_.id != id())
+        if (child->parent_.id != id() || child->former_)
             return fail(Errc::protocol, child->label() + " has two parents");
+        if (child->place_ != i)
+            return fail(Errc::protocol, child->label() + " is a child of " + label() + " twice");
     }
     int depth = 0;
     for (const Node* at = aspect().get(parent_); at != nullptr; at = aspect().get(at->parent_)) {

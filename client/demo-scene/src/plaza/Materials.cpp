@@ -52,7 +52,7 @@ Materials addMaterials(Scene& scene, std::uint64_t seed, std::uint32_t textureSh
     m.darkMarble = tinted(scene, m.marble, "dark marble", {0.06F, 0.07F, 0.065F, 1.0F}, 0.25F);
     m.plaster = with("plaster", {.roughness = 0.9F});
     m.terracotta = with("terracotta", {.roughness = 0.8F});
-    m.bronze = with("bronze", {.metallic = 0.35F, .roughness = 0.4F});
+    m.bronze = with("bronze", {.metallic = 0.2F, .roughness = 0.45F});
     m.gold = plain(scene, {.name = "gilding",
                            .baseColour = {0.83F, 0.58F, 0.20F, 1.0F},
                            .metallic = 0.4F,

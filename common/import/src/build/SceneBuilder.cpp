@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace gnomon::importer {
@@ -20,8 +21,8 @@ void addExactly(math::Box& bounds, const scene::Geometry& geometry, const math::
     math::Box both = bounds;
     both.add(loose);
     if (!bounds.empty() && both == bounds) return;
-    for (const auto& p : geometry.positions->as<math::vec3>())
-        bounds.add(math::dvec3{worldFromLocal * math::dvec4{math::dvec3{p}, 1.0}});
+    for (const auto& p : geometry.positions->as<std::array<float, 3>>())
+        bounds.add(math::dvec3{worldFromLocal * math::dvec4{double{p[0]}, double{p[1]}, double{p[2]}, 1.0}});
 }
 
 template <class T>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "input/Report.h"
@@ -46,7 +47,6 @@ GltfContainer glbContainer(std::span<const std::byte> file) {
     const auto whole = file.subspan(0, static_cast<std::size_t>(length));
 
     GltfContainer container;
-    bool hasJson = false;
     std::size_t number = 0;
     for (std::size_t at = 12; whole.size() - at >= 8; ++number) {
         const std::uint64_t size = wordAt(whole, at);
@@ -59,14 +59,13 @@ GltfContainer glbContainer(std::span<const std::byte> file) {
         at += body.size();
         if (number == 0 && kind != jsonChunk)
             refuse("GLB chunk 0: is not the JSON chunk that has to come first");
-        if (kind == jsonChunk && !hasJson) {
-            container.json = parsedJson(asText(body));
-            hasJson = true;
+        if (kind == jsonChunk && !container.json) {
+            container.json = std::make_shared<const nlohmann::json>(parsedJson(asText(body)));
         } else if (kind == binChunk && !container.binary) {
             container.binary = body;
         }
     }
-    if (!hasJson) refuse("GLB: there is no JSON chunk");
+    if (!container.json) refuse("GLB: there is no JSON chunk");
     return container;
 }
 
@@ -79,11 +78,11 @@ GltfContainer gltfContainer(std::span<const std::byte> file) {
     if (first == std::string_view::npos || text[first] != '{')
         refuse(text.empty() ? "the file is empty, expected glTF"
                             : "is neither GLB (it does not begin with \"glTF\") nor JSON");
-    return {.json = parsedJson(text)};
+    return {.json = std::make_shared<const nlohmann::json>(parsedJson(text))};
 }
 
 GltfDocument::GltfDocument(std::span<const std::byte> file, Folder& folder)
-    : folder_{folder}, container_{gltfContainer(file)}, root_{container_.json, ""} {
+    : folder_{folder}, container_{gltfContainer(file)}, root_{*container_.json, ""} {
     checkVersion();
     checkExtensions();
     accessors_ = root_.objects("accessors", "accessor");

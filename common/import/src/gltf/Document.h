@@ -2,7 +2,7 @@
 
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <vector>
@@ -14,7 +14,7 @@ namespace gnomon::importer {
 
 /// A glTF 2.0 file's JSON and binary chunk, apart.
 struct GltfContainer {
-    nlohmann::json json = {};
+    std::shared_ptr<const nlohmann::json> json = {};  ///< never null
     std::optional<std::span<const std::byte>> binary = {};
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "input/Files.h"
 #include "mesh/Chunks.h"
 #include "mesh/FlatIndex.h"
 #include "mesh/Normals.h"
@@ -107,7 +108,10 @@ void orderVertices(MeshData& mesh) {
 
 template <class T>
 field::Payload payloadOf(const std::vector<T>& values) {
-    return values.empty() ? field::Payload{} : field::Payload::of(std::span<const T>{values});
+    // Payload::of asks for trivially copyable items; GLM's are not in name, but plain floats in fact.
+    const auto* raw = reinterpret_cast<const std::byte*>(values.data());
+    if (values.empty()) return {};
+    return field::Payload{Bytes(raw, raw + values.size() * sizeof(T))};
 }
 
 }  // namespace

@@ -49,7 +49,10 @@ std::vector<std::uint32_t> weldedPositions(std::span<const math::vec3> positions
     // Compared by bits, after -0 + 0 has become 0: NaN, which never equals itself, would fill the
     // table with entries of one hash.
     const auto bits = [&](std::uint32_t i) {
-        return std::bit_cast<std::array<std::uint32_t, 3>>(positions[i] + math::vec3{0.0F});
+        const auto& p = positions[i];
+        return std::array{std::bit_cast<std::uint32_t>(p.x + 0.0F),
+                          std::bit_cast<std::uint32_t>(p.y + 0.0F),
+                          std::bit_cast<std::uint32_t>(p.z + 0.0F)};
     };
     for (std::uint32_t i = 0; i < positions.size(); ++i) {
         const auto own = bits(i);

@@ -84,9 +84,9 @@ struct Frame {
     static constexpr MessageType type = MessageType::frame;
     static constexpr std::string_view name = "Frame";
     static constexpr bool hasTail = true;
-    static constexpr std::uint32_t capture = 1;      ///< send Images before Ready
-    static constexpr std::uint32_t digest = 2;       ///< send Digest before Ready
-    static constexpr std::uint32_t wantsDepth = 4;   ///< send Depth, wait for Fit
+    static constexpr std::uint32_t capture = 1;     ///< send Images before Ready
+    static constexpr std::uint32_t digest = 2;      ///< send Digest before Ready
+    static constexpr std::uint32_t wantsDepth = 4;  ///< send Depth, wait for Fit
     static constexpr std::uint32_t knownFlags = 7;
     std::uint64_t n = 0;
     double time = 0;  ///< seconds, the application's clock

@@ -34,17 +34,23 @@ inline constexpr std::uint32_t protocolMagic = 0x4d4f4e47;
 inline constexpr std::uint32_t protocolVersion = 1;
 
 template <class M>
-inline constexpr bool hasTail = requires { requires M::hasTail; };
+inline constexpr bool hasTail = requires {
+    requires M::hasTail;
+};
 
 namespace detail {
 
 /// An enumeration that names its greatest value `last`.
 template <class T>
-concept WireEnum = std::is_enum_v<T> && requires { T::last; };
+concept WireEnum = std::is_enum_v<T> && requires {
+    T::last;
+};
 
 /// A struct listed inside a message; `wireBytes` is the least it takes.
 template <class T>
-concept WireStruct = requires { T::wireBytes; };
+concept WireStruct = requires {
+    T::wireBytes;
+};
 
 class FieldWriter {
 public:
@@ -150,8 +156,7 @@ template <class M>
 std::vector<std::byte> body(const M& message) {
     auto bytes = packet(message);
     bytes.erase(bytes.begin(), bytes.begin() + 8);
-    if constexpr (hasTail<M>)
-        bytes.insert(bytes.end(), message.tail.begin(), message.tail.end());
+    if constexpr (hasTail<M>) bytes.insert(bytes.end(), message.tail.begin(), message.tail.end());
     return bytes;
 }
 
@@ -173,8 +178,7 @@ Result<M> decode(std::span<const std::byte> bytes) {
             if (const char* why = message.wrong()) from.fail(why);
         }
     }
-    if (from.failed())
-        return tl::unexpected{detail::decodeError(M::name, from, bytes.size())};
+    if (from.failed()) return tl::unexpected{detail::decodeError(M::name, from, bytes.size())};
     return message;
 }
 

@@ -48,9 +48,9 @@ struct HubHooks {
 
 /// What handing over frame n brought to light. The figures are those of frame `shown`.
 struct FrameResult {
-    std::uint64_t n = 0;      ///< the frame handed over
-    std::uint64_t shown = 0;  ///< the newest frame that was swapped; 0: none yet
-    double ms = 0;            ///< from its sending to its swap
+    std::uint64_t n = 0;                ///< the frame handed over
+    std::uint64_t shown = 0;            ///< the newest frame that was swapped; 0: none yet
+    double ms = 0;                      ///< from its sending to its swap
     std::optional<double> skewMs = {};  ///< between first and last server, of frame shown - 1
     std::string waitedFor = {};         ///< the server that was ready last
     std::vector<std::string> droppedNow = {};  ///< since the call before
@@ -85,12 +85,12 @@ struct ServerStatus {
     std::uint64_t lastReady = 0;
     RenderStats stats = {};  ///< of lastReady
     Activity activity = Activity::idle;
-    std::uint64_t current = 0;     ///< frame it is at; 0: none
-    std::uint32_t busyMs = 0;      ///< for how long, when it was last asked
+    std::uint64_t current = 0;          ///< frame it is at; 0: none
+    std::uint32_t busyMs = 0;           ///< for how long, when it was last asked
     std::optional<double> tripMs = {};  ///< shortest round trip of late
-    std::uint64_t toUpload = 0;    ///< bytes of payloads and snapshot still to be sent
-    std::uint32_t lost = 0;        ///< how often it was dropped from the wall
-    std::uint32_t rejoined = 0;    ///< how often it came back
+    std::uint64_t toUpload = 0;         ///< bytes of payloads and snapshot still to be sent
+    std::uint32_t lost = 0;             ///< how often it was dropped from the wall
+    std::uint32_t rejoined = 0;         ///< how often it came back
 };
 
 /// Since the hub was made, to all servers together.

@@ -42,7 +42,7 @@ struct Snapshot {
 /// changes name is with them.
 struct Frame {
     std::uint64_t n = 0;
-    double time = 0;  ///< seconds, the application's clock
+    double time = 0;          ///< seconds, the application's clock
     bool capture = false;     ///< send the Images of this frame, then Ready
     bool digest = false;      ///< send Digest{n, aspect.digest()}, then Ready
     bool wantsDepth = false;  ///< send Depth{n}, and wait for Fit{n} before rendering with it
@@ -88,7 +88,7 @@ struct Image {
     std::uint32_t y = 0;       ///< pixels from the top
     std::uint32_t width = 0;
     std::uint32_t height = 0;
-    std::uint8_t channels = 3;            ///< 3: RGB, 4: RGBA
+    std::uint8_t channels = 3;              ///< 3: RGB, 4: RGBA
     std::vector<std::uint8_t> pixels = {};  ///< top row first, width * height * channels
 };
 

@@ -127,7 +127,16 @@ struct Digest {
     }
 };
 
-enum class EventKind : std::uint8_t { key, character, button, move, scroll, resize, close, last = close };
+enum class EventKind : std::uint8_t {
+    key,
+    character,
+    button,
+    move,
+    scroll,
+    resize,
+    close,
+    last = close
+};
 
 /// Input from a server's window. Codes, actions and modifiers are GLFW's numbers.
 struct Event {

@@ -10,15 +10,28 @@
 
 namespace gnomon::field {
 
-/// The payloads an aspect knows of, by content. Holds none alive.
+/// The payloads an aspect knows of, by content: those its fields use, and those that came with the
+/// list being applied.
 class PayloadStore final : public PayloadSource {
 public:
     Payload find(const Hash128& hash) const override;
-    void know(const Payload& payload);
-    void forget(const Hash128& hash) { known_.erase(hash); }
+    void arrive(const std::vector<Payload>& payloads);
+    /// Forgets what arrived and is not used.
+    void endArrival();
+    void use(const Payload& payload);
+    /// True when nothing uses it any more.
+    bool drop(const Hash128& hash);
+    bool used(const Hash128& hash) const { return used_.contains(hash); }
 
 private:
-    std::unordered_map<Hash128, std::weak_ptr<const Payload::Data>> known_;
+    /// Held here too: fields may hold equal payloads that do not share their bytes, and the one
+    /// that is found must not depend on which of them stays.
+    struct Used {
+        Payload payload = {};
+        std::uint32_t fields = 0;
+    };
+    std::unordered_map<Hash128, Used> used_;
+    std::unordered_map<Hash128, Payload> arrived_;
 };
 
 /// One thread's or one process's copy of the containers.
@@ -98,14 +111,22 @@ private:
     void finishEdit(FieldContainer& container);
     /// Takes what was touched into the counts; the mask.
     Mask settle(FieldContainer& container);
-    Result<void> count(const UseLog& log);
-    void remove(FieldContainer& container, std::vector<Id>* orphans);
+    /// Takes log_ into the counts of references and payloads, and empties it.
+    Result<void> countUses();
     void stale(FieldContainer& container);
     std::uint64_t computeDigest(const FieldContainer& container);
     bool recorded(const FieldContainer& c) const noexcept {
         return c.type().replicated || recordLocal_;
     }
+    Result<void> applyBlocks(const ChangeList& list, Applied* applied, bool own);
     Result<void> applyBlock(Reader& from, Applied* applied, bool own);
+    Result<void> applyCreations(Reader& from, std::uint32_t count, Applied* applied, bool own);
+    Result<void> applyChanges(Reader& from, std::uint32_t count,
+                              std::vector<FieldContainer*>& touched, Applied* applied, bool own);
+    Result<void> applyReleases(Reader& from, std::uint32_t count,
+                               std::vector<FieldContainer*>& going, bool own);
+    void drop(FieldContainer& container, std::vector<Id>* orphans);
+    void erase(FieldContainer& container);
 
     const TypeRegistry& types_;
     const std::uint16_t space_;
@@ -113,11 +134,10 @@ private:
     std::uint64_t nextCounter_ = 1;
     std::unordered_map<Id, std::unique_ptr<FieldContainer>> containers_;
     PayloadStore payloads_;
-    std::unordered_map<Hash128, std::uint32_t> payloadUses_;
     std::vector<Hash128> unusedPayloads_;
 
-    std::vector<Id> created_;    // since the last commit
-    std::vector<Id> changed_;    // pending_ != 0
+    std::vector<Id> created_;  // since the last commit
+    std::vector<Id> changed_;  // pending_ != 0
     std::vector<Id> destroyed_;
     Writer writer_;
     UseLog log_;

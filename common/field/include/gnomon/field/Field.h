@@ -19,6 +19,12 @@ struct UseLog {
         return addedRefs.empty() && droppedRefs.empty() && addedPayloads.empty() &&
                droppedPayloads.empty();
     }
+    void clear() noexcept {
+        addedRefs.clear();
+        droppedRefs.clear();
+        addedPayloads.clear();
+        droppedPayloads.clear();
+    }
 };
 
 namespace detail {
@@ -158,8 +164,8 @@ public:
         const std::size_t first = from.scalar<std::uint32_t>();
         const std::size_t count = from.scalar<std::uint32_t>();
         // Nothing is allocated that the bytes at hand, or the values here already, do not justify.
-        if (from.failed() || count > from.remaining() / std::max<std::size_t>(
-                                         minimumBytes(layout), 1) ||
+        if (from.failed() ||
+            count > from.remaining() / std::max<std::size_t>(minimumBytes(layout), 1) ||
             first + count > size || size > std::max(values_.size(), first + count) ||
             first > values_.size()) {
             from.fail("a multi field's range does not fit");

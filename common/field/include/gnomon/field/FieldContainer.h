@@ -55,9 +55,10 @@ private:
     Aspect* aspect_ = nullptr;
     std::uint64_t digest_ = 0;
     std::uint32_t references_ = 0;
-    Mask pending_ = 0;         // changed since the last commit
-    bool uncommitted_ = false; // created since the last commit
+    Mask pending_ = 0;          // changed since the last commit
+    bool uncommitted_ = false;  // created since the last commit
     bool digestStale_ = false;
+    bool dropped_ = false;  // about to be destroyed: its references no longer count
 };
 
 /// One line of a container's field table.
@@ -78,7 +79,8 @@ constexpr FieldEntry<C, F> entry(std::string_view name, F C::*member) noexcept {
 ///     public:
 ///         static constexpr std::string_view typeName = "Transform";
 ///         Field<Affine> matrix;
-///         static constexpr auto fields() { return std::tuple{entry("matrix", &Transform::matrix)}; }
+///         static constexpr auto fields() { return std::tuple{entry("matrix", &Transform::matrix)};
+///         }
 ///     };
 ///
 /// `static constexpr bool replicated = false;` in Self keeps the type in its own process.
@@ -134,8 +136,8 @@ protected:
 
 private:
     template <class Line>
-    using FieldOf = std::remove_cvref_t<
-        decltype(std::declval<Self&>().*std::declval<std::remove_cvref_t<Line>>().member)>;
+    using FieldOf = std::remove_cvref_t<decltype(std::declval<Self&>().*
+                                                 std::declval<std::remove_cvref_t<Line>>().member)>;
 
     const Self& self() const noexcept { return static_cast<const Self&>(*this); }
     Self& self() noexcept { return static_cast<Self&>(*this); }

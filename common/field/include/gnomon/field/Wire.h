@@ -88,6 +88,9 @@ public:
 /// caller looks at failed() once per entry.
 class Reader {
 public:
+    /// Largest id that a reader with an offset accepts.
+    static constexpr std::uint64_t maxMoved = std::uint64_t{1} << 32U;
+
     explicit Reader(std::span<const std::byte> bytes, const PayloadSource* payloads = nullptr,
                     std::uint64_t idOffset = 0) noexcept
         : bytes_{bytes}, payloads_{payloads}, idOffset_{idOffset} {}
@@ -112,8 +115,12 @@ public:
     }
     Id id() noexcept {
         Id value{scalar<std::uint64_t>()};
-        if (value) value.value += idOffset_;
-        return value;
+        if (!value || idOffset_ == 0) return value;
+        if (value.value > maxMoved) {
+            fail("an id too large to be moved");
+            return {};
+        }
+        return {value.value + idOffset_};
     }
     std::string string() {
         const auto data = bytes(scalar<std::uint32_t>());

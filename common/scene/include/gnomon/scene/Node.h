@@ -3,6 +3,7 @@
 #include <gnomon/field/Aspect.h>
 #include <gnomon/scene/FieldTypes.h>
 
+#include <cstdint>
 #include <string>
 
 namespace gnomon::scene {
@@ -32,7 +33,8 @@ public:
     /// The node that lists this one; follows the children fields, does not travel.
     Ref<Node> parent() const noexcept { return parent_; }
 
-    /// Adds at the end; takes the child from its present parent first (which must be writable here).
+    /// Adds at the end; takes the child from its present parent first (which must be writable
+    /// here).
     /// @throws Failure Errc::edit, naming both nodes, when it would close a cycle or make the tree
     ///         deeper than maxDepth.
     void addChild(const Node& child);
@@ -56,6 +58,10 @@ private:
 
     MultiField<Ref<Node>> children_;
     Ref<Node> parent_ = {};
+    // While a change list is applied: the parent before, where that one's list was not changed
+    // (yet).
+    Ref<Node> former_ = {};
+    std::uint32_t place_ = 0;  // among its parent's children, as the last change list had it
 };
 
 /// Groups its children and does nothing else.
