@@ -2,10 +2,9 @@
 ///     gnomon-example configs/local-2x2.toml model.glb
 #include <gnomon/client/Application.h>
 
-#include <glm/gtc/matrix_transform.hpp>
-
 #include <cstdio>
 #include <cstdlib>
+#include <glm/gtc/matrix_transform.hpp>
 
 int main(int argc, char** argv) try {
     if (argc < 3) throw gnomon::Failure{gnomon::Errc::config, "usage: WALL.toml MODEL [FRAMES]"};

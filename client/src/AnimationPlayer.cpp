@@ -1,9 +1,9 @@
 #include <gnomon/client/AnimationPlayer.h>
 
-#include "KeySampler.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "KeySampler.h"
 
 namespace gnomon::client {
 
@@ -78,16 +78,22 @@ math::Affine AnimationPlayer::matrixOf(const Pose& pose) noexcept {
 void AnimationPlayer::animate(field::Aspect& aspect, double time) {
     for (const Track& track : tracks_) {
         // Repeats; a single key, or keys all at 0, stays where it is.
-        const double at = track.duration > 0.0 ? std::fmod(std::max(time, 0.0), track.duration)
-                                               : 0.0;
+        const double at =
+            track.duration > 0.0 ? std::fmod(std::max(time, 0.0), track.duration) : 0.0;
         const Keys keys{.interpolation = track.interpolation,
                         .times = track.times.as<float>(),
                         .values = track.values.as<float>()};
         Pose& pose = targets_[track.target].pose;
         switch (track.path) {
-            case Path::translation: pose.translation = sampleVector(keys, at); break;
-            case Path::rotation: pose.rotation = sampleRotation(keys, at); break;
-            case Path::scale: pose.scale = sampleVector(keys, at); break;
+            case Path::translation:
+                pose.translation = sampleVector(keys, at);
+                break;
+            case Path::rotation:
+                pose.rotation = sampleRotation(keys, at);
+                break;
+            case Path::scale:
+                pose.scale = sampleVector(keys, at);
+                break;
         }
     }
     changed_ = 0;

@@ -1,11 +1,10 @@
-#include <gnomon/client/Application.h>
-
-#include "ServerLink.h"
-
 #include <gnomon/client/AnimationPlayer.h>
+#include <gnomon/client/Application.h>
 #include <gnomon/config/Adjust.h>
 #include <gnomon/config/Load.h>
 #include <gnomon/scene/Types.h>
+
+#include "ServerLink.h"
 
 namespace gnomon::client {
 
@@ -133,8 +132,7 @@ net::FrameResult Application::frame(double time, bool capture) {
 
 Result<std::vector<WallPicture>> Application::pictures(std::uint64_t n,
                                                        std::chrono::milliseconds limit) {
-    const auto tiles =
-        impl_->link_->hub().takeImages(n, std::chrono::steady_clock::now() + limit);
+    const auto tiles = impl_->link_->hub().takeImages(n, std::chrono::steady_clock::now() + limit);
     if (!tiles) return tl::unexpected{tiles.error()};
     std::vector<net::Image> images;
     for (const auto& tile : *tiles) images.push_back(tile.image);

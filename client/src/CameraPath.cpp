@@ -1,13 +1,11 @@
-#include <gnomon/client/CameraPath.h>
-
 #include <fmt/format.h>
-
-#include <nlohmann/json.hpp>
+#include <gnomon/client/CameraPath.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 namespace gnomon::client {
@@ -66,10 +64,9 @@ Result<CameraPath> CameraPath::parse(std::string_view text, std::string_view fil
                         fmt::format("{}: expected a JSON object with time, eye, center and up",
                                     line.place));
         const auto time = line.object.find("time");
-        if (time == line.object.end() || !time->is_number() ||
-            !std::isfinite(time->get<double>()))
-            return fail(Errc::file, fmt::format("{}: \"time\" must be a number of seconds",
-                                                line.place));
+        if (time == line.object.end() || !time->is_number() || !std::isfinite(time->get<double>()))
+            return fail(Errc::file,
+                        fmt::format("{}: \"time\" must be a number of seconds", line.place));
         const math::dvec3 y{0.0, 1.0, 0.0};
         const auto eye = vector(line, "eye", nullptr);
         const auto center = vector(line, "center", nullptr);
@@ -92,9 +89,8 @@ Result<CameraPath> CameraPath::parse(std::string_view text, std::string_view fil
 }
 
 Look CameraPath::at(double time) const noexcept {
-    const auto after =
-        std::upper_bound(keys_.begin(), keys_.end(), time,
-                         [](double t, const Key& key) { return t < key.time; });
+    const auto after = std::upper_bound(keys_.begin(), keys_.end(), time,
+                                        [](double t, const Key& key) { return t < key.time; });
     if (after == keys_.begin()) return keys_.front().look;
     if (after == keys_.end()) return keys_.back().look;
     const Key& from = *(after - 1);

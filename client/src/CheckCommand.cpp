@@ -1,14 +1,13 @@
-#include "Commands.h"
-
+#include <fmt/format.h>
 #include <gnomon/config/Load.h>
 #include <gnomon/config/Report.h>
-
-#include <fmt/format.h>
 
 #include <cstdio>
 #include <fstream>
 #include <memory>
 #include <set>
+
+#include "Commands.h"
 
 namespace gnomon::client {
 namespace {

@@ -65,13 +65,14 @@ void Console::progress(const std::string& title, double share, const std::string
 
 void Console::plainProgress(const std::string& title, double share, const std::string& what) {
     const int quarter = static_cast<int>(share * 4.0);
-    if (title + what == lastPlain_ && quarter == lastQuarter_) return;
+    if (title == lastPlain_ && quarter == lastQuarter_) return;
     const bool finished = share >= 1.0;
-    lastPlain_ = finished ? std::string{} : title + what;
+    lastPlain_ = finished ? std::string{} : title;
     lastQuarter_ = finished ? -1 : quarter;
-    std::fputs(fmt::format("{}: {:.0f} %{}{}\n", title, share * 100.0, what.empty() ? "" : " ", what)
-                   .c_str(),
-               out_);
+    std::fputs(
+        fmt::format("{}: {:.0f} %{}{}\n", title, share * 100.0, what.empty() ? "" : " ", what)
+            .c_str(),
+        out_);
 }
 
 void Console::clearBar() {

@@ -11,8 +11,7 @@ namespace gnomon::client {
 /// What the program tells people, on standard output: lines, and below them one progress bar.
 /// (Standard error has the one line a failed program ends with.) From any thread.
 ///
-/// On a terminal the bar is drawn over itself; elsewhere it is a line each quarter of the way and
-/// whenever what it is at changes.
+/// On a terminal the bar is drawn over itself; elsewhere it is a line each quarter of the way.
 class Console {
 public:
     explicit Console(std::FILE* out = stdout);
@@ -35,8 +34,8 @@ private:
     std::FILE* const out_;
     const bool terminal_;
     std::mutex mutex_ = {};
-    std::string bar_ = {};       // as drawn; empty: none
-    std::string lastPlain_ = {};  // what the last plain line was at
+    std::string bar_ = {};        // as drawn; empty: none
+    std::string lastPlain_ = {};  // title of the last plain line
     int lastQuarter_ = -1;
 };
 

@@ -25,10 +25,8 @@ Between find(std::span<const float> times, double time) noexcept {
     const auto second = static_cast<std::size_t>(after - times.begin());
     const double start = times[second - 1];
     const double length = times[second] - start;  // above 0: start <= time < times[second]
-    return {.first = second - 1,
-            .second = second,
-            .share = (time - start) / length,
-            .length = length};
+    return {
+        .first = second - 1, .second = second, .share = (time - start) / length, .length = length};
 }
 
 template <int n>
@@ -99,8 +97,7 @@ math::dvec4 sampleRotation(const Keys& keys, double time) noexcept {
     const Between at = find(keys.times, time);
     if (at.first == at.second || keys.interpolation == Interpolation::step)
         return unit(keyValue<4>(keys, at.first));
-    if (keys.interpolation == Interpolation::cubicSpline)
-        return unit(spline<4>(keys.values, at));
+    if (keys.interpolation == Interpolation::cubicSpline) return unit(spline<4>(keys.values, at));
     return slerp(unit(keyValue<4>(keys, at.first)), unit(keyValue<4>(keys, at.second)), at.share);
 }
 

@@ -1,7 +1,6 @@
+#include <fmt/format.h>
 #include <gnomon/base/Process.h>
 #include <gnomon/client/Launcher.h>
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
@@ -13,8 +12,8 @@ namespace {
 /// Quoted for a shell where it needs to be.
 std::string quoted(const std::string& word) {
     const auto plain = [](unsigned char c) {
-        return std::isalnum(c) != 0 || std::string_view{"-_=.,:/+@%"}.find(static_cast<char>(c)) !=
-                                           std::string_view::npos;
+        return std::isalnum(c) != 0 ||
+               std::string_view{"-_=.,:/+@%"}.find(static_cast<char>(c)) != std::string_view::npos;
     };
     if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
     std::string result = "'";
@@ -45,9 +44,13 @@ std::vector<LaunchCommand> launchCommands(const config::Config& config,
     for (const auto& server : config.servers) {
         if (!config::isLocal(server.host)) continue;
         LaunchCommand command{.server = server.name};
-        command.arguments = {path,       "--name",    server.name,
-                             "--listen", fmt::format("127.0.0.1:{}", server.port),
-                             "--backend", std::string{backend}};
+        command.arguments = {path,
+                             "--name",
+                             server.name,
+                             "--listen",
+                             fmt::format("127.0.0.1:{}", server.port),
+                             "--backend",
+                             std::string{backend}};
         if (server.gpu >= 0) {
             command.arguments.emplace_back("--gpu");
             command.arguments.push_back(std::to_string(server.gpu));

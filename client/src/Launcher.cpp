@@ -1,8 +1,5 @@
-#include <gnomon/client/Launcher.h>
-
-#include "ServerProcess.h"
-
 #include <fmt/format.h>
+#include <gnomon/client/Launcher.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/wait.h>
@@ -13,6 +10,8 @@
 #include <csignal>
 #include <mutex>
 #include <thread>
+
+#include "ServerProcess.h"
 
 namespace gnomon::client {
 
@@ -67,7 +66,8 @@ private:
             for (std::size_t i = 0; i < servers.size(); ++i) startIfDue(servers[i], i, now);
             wait(servers);
             for (std::size_t i = 0; i < servers.size(); ++i)
-                if (const auto status = servers[i].reap(Clock::now())) onEnd(servers[i], i, *status);
+                if (const auto status = servers[i].reap(Clock::now()))
+                    onEnd(servers[i], i, *status);
         }
         end(servers);
     }
@@ -118,8 +118,7 @@ private:
         // by itself will do so again.
         if (starting && (WIFEXITED(status) || deaths_[index] >= 3)) {
             fail({.code = Errc::process,
-                  .what = fmt::format("server \"{}\" {}", server.command().server,
-                                      server.why())});
+                  .what = fmt::format("server \"{}\" {}", server.command().server, server.why())});
         }
     }
 
@@ -163,9 +162,9 @@ private:
     std::vector<int> deaths_ = {};  // the thread's
 
     mutable std::mutex mutex_;
-    bool starting_ = true;                // guarded
-    std::optional<Error> failure_ = {};   // guarded
-    std::vector<int> processes_ = {};     // guarded
+    bool starting_ = true;               // guarded
+    std::optional<Error> failure_ = {};  // guarded
+    std::vector<int> processes_ = {};    // guarded
 
     std::thread thread_ = {};
 };

@@ -2,9 +2,8 @@
 #include <gnomon/math/View.h>
 #include <gnomon/scene/Light.h>
 
-#include <glm/gtc/matrix_transform.hpp>
-
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace gnomon::client {
 
@@ -35,15 +34,14 @@ public:
         : aspect_{aspect}, tree_{tree}, brightness_{brightness} {}
 
     const scene::Node& operator()(const Sun& sun) const {
-        const auto& light = make<scene::DirectionalLight>(
-            "sun", pointing(math::dvec3{0.0}, -sun.toward));
+        const auto& light =
+            make<scene::DirectionalLight>("sun", pointing(math::dvec3{0.0}, -sun.toward));
         edit(light)->angle = static_cast<float>(sun.angle);
         return insertAboveContent(aspect_, tree_, "sun", light);
     }
 
     const scene::Node& operator()(const Spot& spot) const {
-        const auto& light =
-            make<scene::SpotLight>("spot", pointing(spot.position, spot.direction));
+        const auto& light = make<scene::SpotLight>("spot", pointing(spot.position, spot.direction));
         {
             auto e = edit(light);
             e->radius = static_cast<float>(spot.radius);
@@ -54,8 +52,8 @@ public:
     }
 
     const scene::Node& operator()(const Point& point) const {
-        const auto& light = make<scene::PointLight>(
-            "point", glm::translate(math::dmat4{1.0}, point.position));
+        const auto& light =
+            make<scene::PointLight>("point", glm::translate(math::dmat4{1.0}, point.position));
         edit(light)->radius = static_cast<float>(point.radius);
         return insertAboveContent(aspect_, tree_, "point", light);
     }
@@ -92,7 +90,7 @@ void addLights(field::Aspect& aspect, SceneTree& tree, const std::vector<LightOp
 
 field::Ref<scene::Node> addDefaultSun(field::Aspect& aspect, SceneTree& tree) {
     const Brightness warm{.color = math::vec3{1.0F, 0.96F, 0.90F},
-                          .intensity = 0.9F,
+                          .intensity = 0.82F,
                           .ambient = math::vec3{0.14F, 0.15F, 0.18F}};
     return addLight(aspect, tree, Sun{.toward = math::dvec3{0.45, 0.80, 0.35}}, warm);
 }

@@ -56,8 +56,7 @@ math::dmat4 worldFromEye(const Look& look) noexcept {
 DepthRange depthRange(const math::Box& bounds, const math::dvec3& eye) noexcept {
     if (bounds.empty()) return {};
     double farthest = 0.0;
-    for (int i = 0; i < 8; ++i)
-        farthest = std::max(farthest, glm::length(bounds.corner(i) - eye));
+    for (int i = 0; i < 8; ++i) farthest = std::max(farthest, glm::length(bounds.corner(i) - eye));
     const double nearest = glm::length(eye - glm::clamp(eye, bounds.min, bounds.max));
     DepthRange range;
     // A box that is a point at the eye still gets a range.

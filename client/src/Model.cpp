@@ -1,8 +1,7 @@
+#include <fmt/format.h>
 #include <gnomon/client/Model.h>
 #include <gnomon/import/Import.h>
 #include <gnomon/scene/Light.h>
-
-#include <fmt/format.h>
 
 namespace gnomon::client {
 

@@ -1,20 +1,18 @@
-#include "Console.h"
-#include "Interrupt.h"
-#include "RunOptions.h"
-#include "Statistics.h"
-
+#include <fmt/format.h>
 #include <gnomon/client/CameraPath.h>
 #include <gnomon/config/Load.h>
 #include <gnomon/config/Report.h>
 #include <gnomon/image/Png.h>
 
-#include <fmt/format.h>
-
-#include <nlohmann/json.hpp>
-
 #include <cerrno>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <thread>
+
+#include "Console.h"
+#include "Interrupt.h"
+#include "RunOptions.h"
+#include "Statistics.h"
 
 namespace gnomon::client {
 namespace {
@@ -95,7 +93,8 @@ private:
 
     void loadScene() {
         if (options_.view.size || options_.view.fovy)
-            console_.line("note: --size and --fovy mean nothing on a wall: screens and head decide");
+            console_.line(
+                "note: --size and --fovy mean nothing on a wall: screens and head decide");
         const std::string title = "loading " + options_.scene.filename().string();
         SceneOptions scene{.file = options_.scene, .lights = options_.lights};
         if (!scene.file.empty())
@@ -117,6 +116,10 @@ private:
 
     /// False where a signal came first.
     bool start(const Interrupt& interrupt) {
+        for (const auto& server : app_.config().servers)
+            if (!config::isLocal(server.host))
+                console_.line(fmt::format("{}: expected to be running at {}:{}", server.name,
+                                          server.host, server.port));
         auto said = Clock::now();
         std::string before;
         const auto progress = [&](const std::vector<net::ServerStatus>& servers) {
@@ -130,8 +133,10 @@ private:
         const auto started = app_.start(progress, [&] { return !interrupt.requested(); });
         if (interrupt.requested()) return false;
         orThrow(Result<void>{started});
+        // Local servers have said so themselves.
         for (const auto& server : app_.status())
-            console_.line(fmt::format("{}: {}", server.address.name, server.description));
+            if (!config::isLocal(server.address.host))
+                console_.line(fmt::format("{}: {}", server.address.name, server.description));
         return true;
     }
 
@@ -165,12 +170,13 @@ private:
     void tell(const net::FrameResult& result, std::uint64_t i, Clock::time_point now) {
         for (const auto& name : result.droppedNow)
             console_.log(LogLevel::warning, fmt::format("frame {} goes on without {}", i, name));
-        for (const auto& name : result.joinedNow)
+        // All of them joined to make the first frame.
+        for (const auto& name : i == 0 ? std::vector<std::string>{} : result.joinedNow)
             console_.line(fmt::format("frame {}: {} takes part", i, name));
         if (const auto line = statistics_.line(now)) console_.line(*line);
         if (!options_.frames) return;
         const double share = static_cast<double>(i + 1) / static_cast<double>(*options_.frames);
-        console_.progress("frames", share, fmt::format("{} of {}", i + 1, *options_.frames));
+        console_.progress("frames", share, {});
     }
 
     bool windowClosed() {
@@ -185,8 +191,8 @@ private:
         for (const auto& picture : pictures) {
             for (const auto& server : picture.missing)
                 console_.log(LogLevel::warning,
-                             fmt::format("{}: the tile of server \"{}\" is missing",
-                                         picture.screen, server));
+                             fmt::format("{}: the tile of server \"{}\" is missing", picture.screen,
+                                         server));
             const auto file = pictureFile(options_.out, pictures, picture);
             orThrow(image::writePng(file, picture.image));
             console_.line("wrote " + file.string());
@@ -198,9 +204,10 @@ private:
         out << statistics_.json(app_.status()).dump(2) << "\n";
         out.flush();
         if (!out)
-            throw Failure{Error{.code = Errc::file,
-                                .what = fmt::format("{}: cannot be written", options_.json.string()),
-                                .cause = {errno, std::generic_category()}}};
+            throw Failure{
+                Error{.code = Errc::file,
+                      .what = fmt::format("{}: cannot be written", options_.json.string()),
+                      .cause = {errno, std::generic_category()}}};
     }
 
     const RunOptions& options_;

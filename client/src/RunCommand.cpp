@@ -1,7 +1,7 @@
+#include <memory>
+
 #include "Commands.h"
 #include "RunOptions.h"
-
-#include <memory>
 
 namespace gnomon::client {
 
@@ -16,10 +16,10 @@ void addRun(CLI::App& program, Action& action) {
             [options](const std::string& text) {
                 const auto most = 1e15;
                 const auto n = parseNumbers("--frames", text, 1, 1, "how many frames");
-                if (!(n[0] >= 1.0 && n[0] <= most) || n[0] != static_cast<double>(
-                                                                  static_cast<std::uint64_t>(n[0])))
-                    throw CLI::ValidationError{"--frames", "found \"" + text +
-                                                               "\", expected a whole number above 0"};
+                if (!(n[0] >= 1.0 && n[0] <= most) ||
+                    n[0] != static_cast<double>(static_cast<std::uint64_t>(n[0])))
+                    throw CLI::ValidationError{
+                        "--frames", "found \"" + text + "\", expected a whole number above 0"};
                 options->frames = static_cast<std::uint64_t>(n[0]);
             },
             "End after that many frames; time then runs at 60 frames a second, or along the whole "
@@ -39,7 +39,8 @@ void addRun(CLI::App& program, Action& action) {
             [options](const std::string& text) { options->tile = parseSize("--tile", text); },
             "Pixels of every tile")
         ->type_name("WxH");
-    command.add_option("--out", options->out, "The wall's last picture, PNG")->type_name("WALL.png");
+    command.add_option("--out", options->out, "The wall's last picture, PNG")
+        ->type_name("WALL.png");
     command.add_option("--json", options->json, "What was measured")->type_name("FILE");
     command.add_flag("--dry-run", options->dryRun, "Say what would be started, and end");
     command.callback([options, &action] {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "ViewOptions.h"
-
 #include <gnomon/client/Application.h>
 
 #include <filesystem>
+
+#include "ViewOptions.h"
 
 namespace gnomon::client {
 

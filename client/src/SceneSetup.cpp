@@ -76,8 +76,7 @@ Result<PreparedScene> prepareScene(field::Aspect& aspect, const SceneTree& tree,
 std::vector<Ref<scene::Node>> activeLights(const field::Aspect& aspect,
                                            const PreparedScene& scene) {
     std::vector<Ref<scene::Node>> all = scene.tree.lights;
-    if (scene.model)
-        all.insert(all.end(), scene.model->lights.begin(), scene.model->lights.end());
+    if (scene.model) all.insert(all.end(), scene.model->lights.begin(), scene.model->lights.end());
     std::erase_if(all, [&](Ref<scene::Node> ref) {
         const scene::Node* node = aspect.get(ref);
         const auto* light =

@@ -1,7 +1,6 @@
 #include "ServerLink.h"
 
 #include <fmt/format.h>
-
 #include <gnomon/shadow_fit/ShadowFitter.h>
 
 #include <algorithm>
@@ -30,8 +29,8 @@ net::SyncOptions syncOptions(const config::Sync& sync) {
 /// Lets one line through at a time, whatever thread it comes from.
 LogCallback oneAtATime(LogCallback log) {
     if (!log) return [](LogLevel, const std::string&) {};
-    return [log = std::move(log), mutex = std::make_shared<std::mutex>()](
-               LogLevel level, const std::string& line) {
+    return [log = std::move(log), mutex = std::make_shared<std::mutex>()](LogLevel level,
+                                                                          const std::string& line) {
         const std::lock_guard lock{*mutex};
         log(level, line);
     };
@@ -67,8 +66,9 @@ net::HubHooks ServerLink::hooks() const {
     const auto log = log_;
     const auto fitter = std::make_shared<shadow_fit::ShadowFitter>(
         [log](const std::string& text) { log(LogLevel::warning, text); });
-    hooks.prepare = [fitter](field::Aspect& session, const field::Applied& applied,
-                             std::uint64_t) { fitter->update(session, applied); };
+    hooks.prepare = [fitter](field::Aspect& session, const field::Applied& applied, std::uint64_t) {
+        fitter->update(session, applied);
+    };
     hooks.log = [log](net::LogLevel level, const std::string& text) { log(level, text); };
     return hooks;
 }

@@ -43,7 +43,7 @@ private:
     std::condition_variable listens_;                 // a server that is not yet in the hub
     std::vector<net::ServerAddress> listening_ = {};  // guarded
     std::vector<net::ServerAddress> remote_ = {};
-    std::size_t local_ = 0;      // servers launched here
+    std::size_t local_ = 0;                // servers launched here
     std::set<std::string> listened_ = {};  // those of them that ever said their port
     net::ClientHub hub_;
     std::unique_ptr<Launcher> launcher_ = {};

@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 namespace gnomon::client {
 
@@ -58,13 +57,12 @@ std::optional<std::string> Statistics::line(Clock::time_point now) {
     if (!lastLine_ || now - *lastLine_ < std::chrono::seconds{1} || recentFrames_ == 0) return {};
     const double seconds = std::chrono::duration<double>(now - *lastLine_).count();
     const auto count = static_cast<double>(recentFrames_);
-    std::string text =
-        fmt::format("frame {}  {:.1f} fps  median {:.2f} ms  skew {:.2f} ms  {:.0f} bytes/frame",
-                    frames_, count / seconds, recentMs_.median(), recentSkew_.median(),
-                    recentBytes_ / count);
-    const auto last = std::max_element(
-        recentLast_.begin(), recentLast_.end(),
-        [](const auto& a, const auto& b) { return a.second < b.second; });
+    std::string text = fmt::format(
+        "frame {}  {:.1f} fps  median {:.2f} ms  skew {:.2f} ms  {:.0f} bytes/frame", frames_,
+        count / seconds, recentMs_.median(), recentSkew_.median(), recentBytes_ / count);
+    const auto last =
+        std::max_element(recentLast_.begin(), recentLast_.end(),
+                         [](const auto& a, const auto& b) { return a.second < b.second; });
     if (last != recentLast_.end())
         text += fmt::format("  last {} ({:.0f} %)", last->first,
                             100.0 * static_cast<double>(last->second) / count);
@@ -88,7 +86,9 @@ nlohmann::json Statistics::json(const std::vector<net::ServerStatus>& servers) c
     nlohmann::json all = {
         {"frames", frames_},
         {"frame_ms",
-         {{"median", frameMs_.median()}, {"p99", frameMs_.quantile(0.99)}, {"max", frameMs_.max()}}},
+         {{"median", frameMs_.median()},
+          {"p99", frameMs_.quantile(0.99)},
+          {"max", frameMs_.max()}}},
         {"latency_ms", {{"median", latencyMs_.median()}, {"p99", latencyMs_.quantile(0.99)}}},
         {"skew_ms", {{"median", skewMs_.median()}, {"p99", skewMs_.quantile(0.99)}}},
         {"bytes_per_frame", bytes_ / count},
@@ -97,20 +97,21 @@ nlohmann::json Statistics::json(const std::vector<net::ServerStatus>& servers) c
     for (const auto& server : servers) {
         const auto found = renderMs_.find(server.address.name);
         const auto& stats = server.stats;
-        all["servers"].push_back({{"name", server.address.name},
-                                  {"frame_ms", found == renderMs_.end() ? 0.0 : found->second.median()},
-                                  {"lost", server.lost},
-                                  {"rejoined", server.rejoined},
-                                  {"description", server.description},
-                                  {"trip_ms", server.tripMs ? nlohmann::json(*server.tripMs) : nlohmann::json()},
-                                  {"triangles", stats.triangles},
-                                  {"shadow_ms", stats.shadowMs},
-                                  {"colour_ms", stats.colourMs},
-                                  {"pages_drawn", stats.pagesDrawn},
-                                  {"pages_kept", stats.pagesKept},
-                                  {"map_texels", stats.mapTexels},
-                                  {"map_bytes", stats.mapBytes},
-                                  {"degenerate", stats.degenerate}});
+        all["servers"].push_back(
+            {{"name", server.address.name},
+             {"frame_ms", found == renderMs_.end() ? 0.0 : found->second.median()},
+             {"lost", server.lost},
+             {"rejoined", server.rejoined},
+             {"description", server.description},
+             {"trip_ms", server.tripMs ? nlohmann::json(*server.tripMs) : nlohmann::json()},
+             {"triangles", stats.triangles},
+             {"shadow_ms", stats.shadowMs},
+             {"colour_ms", stats.colourMs},
+             {"pages_drawn", stats.pagesDrawn},
+             {"pages_kept", stats.pagesKept},
+             {"map_texels", stats.mapTexels},
+             {"map_bytes", stats.mapBytes},
+             {"degenerate", stats.degenerate}});
     }
     return all;
 }

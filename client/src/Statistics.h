@@ -2,10 +2,9 @@
 
 #include <gnomon/net/HubTypes.h>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <chrono>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>

@@ -14,8 +14,7 @@ constexpr double radians = std::numbers::pi / 180.0;
 
 [[noreturn]] void wrong(const std::string& option, const std::string& text,
                         const std::string& expected) {
-    throw CLI::ValidationError{option,
-                               fmt::format("found \"{}\", expected {}", text, expected)};
+    throw CLI::ValidationError{option, fmt::format("found \"{}\", expected {}", text, expected)};
 }
 
 std::optional<double> number(std::string_view text) {
@@ -68,7 +67,8 @@ Sun parseSun(const std::string& text) {
                                 "x,y,z[,ANGLE]: direction toward the light, angular radius in "
                                 "degrees");
     const double angle = n.size() > 3 ? n[3] : 0.0;
-    if (!(angle >= 0.0 && angle < 90.0)) wrong("--sun", text, "an angle from 0 to below 90 degrees");
+    if (!(angle >= 0.0 && angle < 90.0))
+        wrong("--sun", text, "an angle from 0 to below 90 degrees");
     return {.toward = directionAt("--sun", text, n, 0), .angle = angle * radians};
 }
 
@@ -86,8 +86,8 @@ Spot parseSpot(const std::string& text) {
 }
 
 Point parsePoint(const std::string& text) {
-    const auto n = parseNumbers("--point", text, 3, 4,
-                                "px,py,pz[,RADIUS]: position, radius in metres");
+    const auto n =
+        parseNumbers("--point", text, 3, 4, "px,py,pz[,RADIUS]: position, radius in metres");
     const double radius = n.size() > 3 ? n[3] : 0.0;
     if (!(radius >= 0.0)) wrong("--point", text, "a radius of 0 or more metres");
     return {.position = vectorAt(n, 0), .radius = radius};
@@ -96,8 +96,7 @@ Point parsePoint(const std::string& text) {
 }  // namespace
 
 std::vector<double> parseNumbers(const std::string& option, const std::string& text,
-                                 std::size_t least, std::size_t most,
-                                 const std::string& expected) {
+                                 std::size_t least, std::size_t most, const std::string& expected) {
     std::vector<double> numbers;
     std::size_t from = 0;
     while (from <= text.size()) {
@@ -142,38 +141,44 @@ void ViewArguments::validate() const {
 
 void addViewOptions(CLI::App& command, ViewArguments& view) {
     const auto huge = std::numeric_limits<double>::infinity();
-    addText(command, "--size",
-            [&view](const std::string& text) { view.size = parseSize("--size", text); },
-            "Pixels of the picture", "WxH");
-    addText(command, "--eye",
-            [&view](const std::string& text) { view.eye = parseVector("--eye", text); },
-            "Where the eye (on a wall: the head) is in the world, metres", "x,y,z");
-    addText(command, "--center",
-            [&view](const std::string& text) { view.center = parseVector("--center", text); },
-            "Where it looks", "x,y,z");
-    addText(command, "--up",
-            [&view](const std::string& text) {
-                const auto n = parseNumbers("--up", text, 3, 3, "three numbers: x,y,z");
-                view.up = directionAt("--up", text, n, 0);
-            },
-            "Which way is up (0,1,0)", "x,y,z");
-    addText(command, "--fovy",
-            [&view](const std::string& text) {
-                view.fovy = parseWithin("--fovy", text, 0.0, 180.0,
-                                        "degrees above 0 and below 180") *
-                            radians;
-            },
-            "Vertical field of view, degrees", "DEG");
-    addText(command, "--near",
-            [&view, huge](const std::string& text) {
-                view.near = parseWithin("--near", text, 0.0, huge, "metres above 0");
-            },
-            "Nearest depth drawn, metres", "M");
-    addText(command, "--far",
-            [&view, huge](const std::string& text) {
-                view.far = parseWithin("--far", text, 0.0, huge, "metres above 0");
-            },
-            "Farthest depth drawn, metres", "M");
+    addText(
+        command, "--size",
+        [&view](const std::string& text) { view.size = parseSize("--size", text); },
+        "Pixels of the picture", "WxH");
+    addText(
+        command, "--eye",
+        [&view](const std::string& text) { view.eye = parseVector("--eye", text); },
+        "Where the eye (on a wall: the head) is in the world, metres", "x,y,z");
+    addText(
+        command, "--center",
+        [&view](const std::string& text) { view.center = parseVector("--center", text); },
+        "Where it looks", "x,y,z");
+    addText(
+        command, "--up",
+        [&view](const std::string& text) {
+            const auto n = parseNumbers("--up", text, 3, 3, "three numbers: x,y,z");
+            view.up = directionAt("--up", text, n, 0);
+        },
+        "Which way is up (0,1,0)", "x,y,z");
+    addText(
+        command, "--fovy",
+        [&view](const std::string& text) {
+            view.fovy =
+                parseWithin("--fovy", text, 0.0, 180.0, "degrees above 0 and below 180") * radians;
+        },
+        "Vertical field of view, degrees", "DEG");
+    addText(
+        command, "--near",
+        [&view, huge](const std::string& text) {
+            view.near = parseWithin("--near", text, 0.0, huge, "metres above 0");
+        },
+        "Nearest depth drawn, metres", "M");
+    addText(
+        command, "--far",
+        [&view, huge](const std::string& text) {
+            view.far = parseWithin("--far", text, 0.0, huge, "metres above 0");
+        },
+        "Farthest depth drawn, metres", "M");
 }
 
 void addLightOptions(CLI::App& command, std::vector<LightOption>& lights) {
@@ -213,31 +218,34 @@ void addShadowOptions(CLI::App& command, ShadowArguments& shadow) {
         if (config::hasError(findings))
             throw CLI::ValidationError{option, config::toError(findings).what};
     };
-    addText(command, "--technique",
-            [&shadow, check](const std::string& text) {
-                check("--technique", config::Shadow{.technique = text});
-                shadow.technique = text;
-            },
-            "How shadows are made: FIT[+FILTER], none ...", "T");
-    addText(command, "--map-size",
-            [&shadow, check](const std::string& text) {
-                const auto size = wholeNumber(text);
-                if (!size) wrong("--map-size", text, "texels a side, a whole number");
-                check("--map-size", config::Shadow{.mapSize = *size});
-                shadow.mapSize = *size;
-            },
-            "Texels a side of a shadow map", "N");
+    addText(
+        command, "--technique",
+        [&shadow, check](const std::string& text) {
+            check("--technique", config::Shadow{.technique = text});
+            shadow.technique = text;
+        },
+        "How shadows are made: FIT[+FILTER], none ...", "T");
+    addText(
+        command, "--map-size",
+        [&shadow, check](const std::string& text) {
+            const auto size = wholeNumber(text);
+            if (!size) wrong("--map-size", text, "texels a side, a whole number");
+            check("--map-size", config::Shadow{.mapSize = *size});
+            shadow.mapSize = *size;
+        },
+        "Texels a side of a shadow map", "N");
 }
 
 void addBackendOption(CLI::App& command, std::string& backend) {
-    addText(command, "--backend",
-            [&backend](const std::string& text) {
-                const auto known = {"egl", "osmesa", "glfw", "none", "auto"};
-                if (std::find(known.begin(), known.end(), text) == known.end())
-                    wrong("--backend", text, "egl, osmesa, glfw, none or auto");
-                backend = text;
-            },
-            "What the servers draw with (auto)", "NAME");
+    addText(
+        command, "--backend",
+        [&backend](const std::string& text) {
+            const auto known = {"egl", "osmesa", "glfw", "none", "auto"};
+            if (std::find(known.begin(), known.end(), text) == known.end())
+                wrong("--backend", text, "egl, osmesa, glfw, none or auto");
+            backend = text;
+        },
+        "What the servers draw with (auto)", "NAME");
 }
 
 }  // namespace gnomon::client

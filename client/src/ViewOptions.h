@@ -1,11 +1,10 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <gnomon/client/Lights.h>
 #include <gnomon/client/Look.h>
 #include <gnomon/config/Config.h>
 
+#include <CLI/CLI.hpp>
 #include <array>
 #include <optional>
 #include <string>

@@ -1,10 +1,10 @@
 #include "WallBuilder.h"
 
-#include "Color.h"
-
 #include <gnomon/image/Png.h>
 
 #include <cmath>
+
+#include "Color.h"
 
 namespace gnomon::client {
 
@@ -17,9 +17,12 @@ math::dvec3 toVector(const config::Point& point) { return {point[0], point[1], p
 
 scene::Eye toEye(config::Eye eye) {
     switch (eye) {
-        case config::Eye::left: return scene::Eye::left;
-        case config::Eye::right: return scene::Eye::right;
-        case config::Eye::mono: break;
+        case config::Eye::left:
+            return scene::Eye::left;
+        case config::Eye::right:
+            return scene::Eye::right;
+        case config::Eye::mono:
+            break;
     }
     return scene::Eye::mono;
 }
@@ -46,8 +49,8 @@ Result<void> WallBuilder::addRoom() {
     const auto& user = aspect_.create<scene::User>();
     {
         const math::dvec3 head = toVector(config_.user.head);
-        const math::dmat4 headFromRoom = math::lookAt(head, head + toVector(config_.user.forward),
-                                                      math::dvec3{0.0, 1.0, 0.0});
+        const math::dmat4 headFromRoom =
+            math::lookAt(head, head + toVector(config_.user.forward), math::dvec3{0.0, 1.0, 0.0});
         auto e = edit(user);
         e->roomFromHead = math::toAffine(glm::inverse(headFromRoom));
         e->eyeSeparation = config_.user.eyeSeparation;
@@ -81,8 +84,8 @@ void WallBuilder::addBackground() {
         return;
     }
     const auto& gradient = aspect_.create<scene::GradientBackground>();
-    edit(gradient)->stops.assign({math::vec4{bottom.x, bottom.y, bottom.z, 0.0F},
-                                  math::vec4{top.x, top.y, top.z, 1.0F}});
+    edit(gradient)->stops.assign(
+        {math::vec4{bottom.x, bottom.y, bottom.z, 0.0F}, math::vec4{top.x, top.y, top.z, 1.0F}});
     background_ = gradient;
 }
 

@@ -1,7 +1,6 @@
+#include <fmt/format.h>
 #include <gnomon/client/WallPicture.h>
 #include <gnomon/config/Layout.h>
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
@@ -29,9 +28,9 @@ Result<void> blit(const net::Image& from, image::Image& to) {
     for (std::size_t row = 0; row < from.height; ++row) {
         const std::uint8_t* source = from.pixels.data() + row * width * channels;
         std::uint8_t* target =
-            to.pixels.data() +
-            ((from.y + row) * static_cast<std::size_t>(to.width) + from.x) * 3;
-        for (std::size_t x = 0; x < width; ++x) std::memcpy(target + x * 3, source + x * channels, 3);
+            to.pixels.data() + ((from.y + row) * static_cast<std::size_t>(to.width) + from.x) * 3;
+        for (std::size_t x = 0; x < width; ++x)
+            std::memcpy(target + x * 3, source + x * channels, 3);
     }
     return {};
 }

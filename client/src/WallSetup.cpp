@@ -1,10 +1,10 @@
 #include <gnomon/client/WallSetup.h>
 
-#include "WallBuilder.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "WallBuilder.h"
 
 namespace gnomon::client {
 
@@ -25,12 +25,12 @@ Result<WallContainers> buildWall(field::Aspect& aspect, const config::Config& co
                                                   from.screen + "\", which does not exist");
                 const auto canvas = config::canvas(config, *screen);
                 if (!canvas) return tl::unexpected{canvas.error()};
-                viewports.push_back(builder.addViewport(
-                    *screen, from.eye, *canvas, canvas->tile(from.tile[0], from.tile[1]),
-                    {.left = from.rect[0],
-                     .bottom = from.rect[1],
-                     .width = from.rect[2],
-                     .height = from.rect[3]}));
+                viewports.push_back(builder.addViewport(*screen, from.eye, *canvas,
+                                                        canvas->tile(from.tile[0], from.tile[1]),
+                                                        {.left = from.rect[0],
+                                                         .bottom = from.rect[1],
+                                                         .width = from.rect[2],
+                                                         .height = from.rect[3]}));
             }
             builder.addWindow(server.name, window, config::gpuOf(server, window),
                               std::move(viewports));
@@ -51,9 +51,9 @@ Result<WallContainers> buildWholeScreen(field::Aspect& aspect, const config::Con
     std::vector<Ref<scene::Viewport>> viewports;
     for (int i = 0; i < count; ++i) {
         const config::TileRect whole{.width = canvas->width, .height = canvas->height};
-        viewports.push_back(builder.addViewport(
-            screen, eyes[static_cast<std::size_t>(i)], *canvas, whole,
-            {.left = static_cast<double>(i) / count, .width = 1.0 / count}));
+        viewports.push_back(
+            builder.addViewport(screen, eyes[static_cast<std::size_t>(i)], *canvas, whole,
+                                {.left = static_cast<double>(i) / count, .width = 1.0 / count}));
     }
     config::Window window;
     window.size = {canvas->width * count, canvas->height};
@@ -80,8 +80,8 @@ void setDepthRange(field::Aspect& aspect, const WallContainers& wall, const conf
                    const DepthRange& range) {
     const auto* lens = aspect.get(wall.lens);
     if (lens == nullptr) return;
-    const double far = config.render.far.value_or(
-        std::max(range.far, config.render.near.value_or(0.0) * 2.0));
+    const double far =
+        config.render.far.value_or(std::max(range.far, config.render.near.value_or(0.0) * 2.0));
     auto e = edit(*lens);
     e->far = far;
     e->near = config.render.near.value_or(std::min(range.near, far * 0.5));
@@ -92,9 +92,9 @@ namespace {
 /// A screen from the head, in room axes: tangents of its corners and the distance to its plane.
 struct Seen {
     Opening opening = {};
-    double distance = 0.0;   ///< metres along the screen's normal
-    double ahead = -1.0;     ///< cosine between -z and the way to the screen's middle
-    bool inFront = false;    ///< all of it, and not too oblique
+    double distance = 0.0;  ///< metres along the screen's normal
+    double ahead = -1.0;    ///< cosine between -z and the way to the screen's middle
+    bool inFront = false;   ///< all of it, and not too oblique
 };
 
 math::dvec3 toVector(const config::Point& point) { return {point[0], point[1], point[2]}; }

@@ -1,10 +1,10 @@
-#include "Commands.h"
-
 #include <gnomon/base/Error.h>
 
 #include <cstdio>
 #include <exception>
 #include <string>
+
+#include "Commands.h"
 
 namespace {
 

@@ -44,7 +44,7 @@ public:
 
 /// One TCP connection that carries messages: u32 body length, u32 type, body, little-endian.
 ///
-/// Used by the Asio thread only. Messages are checked against limitOf(route, type) before any of
+/// Used by one thread at a time. Messages are checked against limitOf(route, type) before any of
 /// their bytes is kept; memory grows with the bytes that arrived, not with the length announced.
 class Channel : public std::enable_shared_from_this<Channel> {
 public:

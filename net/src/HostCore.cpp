@@ -43,6 +43,11 @@ void HostCore::stop() {
     if (session_) endSession({.code = Errc::disconnected, .what = "the server ends"}, true);
 }
 
+bool HostCore::quiet() const {
+    return std::all_of(guests_.begin(), guests_.end(),
+                       [](const Guest& guest) { return guest.channel->isIdle(); });
+}
+
 void HostCore::accept() {
     acceptor_.async_accept([this](error_code ec, tcp::socket socket) {
         if (!acceptor_.is_open()) return;

@@ -15,7 +15,7 @@
 
 namespace gnomon::net {
 
-/// How the main thread gets on; written by it, read by the Asio thread for Pong.
+/// How the main thread gets on; written by it, read for Pong by whoever runs the reactor.
 struct Progress {
     std::atomic<std::uint64_t> lastFinished{0};
     std::atomic<std::uint64_t> current{0};
@@ -23,7 +23,7 @@ struct Progress {
     std::atomic<Activity> activity{Activity::idle};
 };
 
-/// ServerHost's sockets: everything here runs on the Asio thread.
+/// ServerHost's sockets: everything here runs on the thread that has the Reactor.
 class HostCore final : public Receiver {
 public:
     HostCore(asio::io_context& io, tcp::acceptor acceptor, ServerOptions options, Inbox& inbox,
@@ -31,6 +31,8 @@ public:
 
     void start();
     void stop();
+    /// Nothing is left to be written.
+    bool quiet() const;
 
     /// The main thread's answer to a SchemaOffer.
     void agreed(std::uint64_t session, Result<void> outcome, std::vector<std::byte> ourSchema);

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
-#include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <mutex>
@@ -22,18 +20,16 @@ struct SchemaOffer {
     std::vector<std::byte> schema = {};
 };
 
-/// The way from the server's Asio thread to its main thread.
+/// The way from the server's sockets to its main thread. Locked, for the helper thread fills it,
+/// too, and anybody may push a Quit.
 class Inbox {
 public:
     using Item = std::variant<ServerEvent, SchemaOffer>;
 
     void push(Item item, std::size_t bytes) {
-        {
-            const std::lock_guard lock{mutex_};
-            items_.push_back({std::move(item), bytes});
-            bytes_ += bytes;
-        }
-        arrived_.notify_one();
+        const std::lock_guard lock{mutex_};
+        items_.push_back({std::move(item), bytes});
+        bytes_ += bytes;
     }
 
     /// What a session left unread means nothing to the next one. Keeps a Quit.
@@ -47,9 +43,14 @@ public:
         bytes_ = 0;
     }
 
-    std::optional<Item> pop(std::chrono::steady_clock::time_point deadline) {
-        std::unique_lock lock{mutex_};
-        if (!arrived_.wait_until(lock, deadline, [&] { return !items_.empty(); })) return {};
+    bool empty() const {
+        const std::lock_guard lock{mutex_};
+        return items_.empty();
+    }
+
+    std::optional<Item> pop() {
+        const std::lock_guard lock{mutex_};
+        if (items_.empty()) return {};
         Entry entry = std::move(items_.front());
         items_.pop_front();
         bytes_ -= std::min(bytes_, entry.bytes);
@@ -75,7 +76,7 @@ public:
         return queued;
     }
 
-    /// Whether the Asio thread wants to be told when something was taken.
+    /// Whether the core wants to be told when something was taken.
     bool throttled() const noexcept { return throttled_.load(); }
     void setThrottled(bool on) noexcept { throttled_ = on; }
 
@@ -85,7 +86,6 @@ private:
         std::size_t bytes = 0;
     };
     mutable std::mutex mutex_;
-    std::condition_variable arrived_;
     std::deque<Entry> items_;
     std::size_t bytes_ = 0;
     std::atomic<bool> throttled_{false};

@@ -2,9 +2,9 @@
 #include <gnomon/net/ServerHost.h>
 
 #include <cstdlib>
-#include <thread>
 
 #include "HostCore.h"
+#include "Reactor.h"
 
 namespace gnomon::net {
 namespace {
@@ -38,31 +38,31 @@ tcp::acceptor listen(asio::io_context& io, const ServerOptions& options) {
 
 class ServerHost::Impl {
 public:
-    Impl(ServerOptions options, field::TypeRegistry& types)
-        : types_{types}, core_{[&] {
-              auto acceptor = listen(io_, options);
-              port_ = acceptor.local_endpoint().port();
-              return std::make_unique<HostCore>(io_, std::move(acceptor), std::move(options),
-                                                inbox_, progress_);
-          }()} {
-        core_->start();
-        thread_ = std::thread{[this] { io_.run(); }};
+    Impl(ServerOptions options, field::TypeRegistry& types) : types_{types} {
+        reactor_.alone([&] {
+            auto acceptor = listen(reactor_.io(), options);
+            port_ = acceptor.local_endpoint().port();
+            core_ = std::make_unique<HostCore>(reactor_.io(), std::move(acceptor),
+                                               std::move(options), inbox_, progress_);
+            core_->start();
+        });
     }
 
     ~Impl() {
-        asio::post(io_, [this] {
-            core_->stop();
-            linger_ = std::make_unique<Timer>(io_);
-            // Time for a last Refused to leave; nobody is waited for.
-            linger_->after(Milliseconds{20}, [this] { io_.stop(); });
-        });
-        thread_.join();
-        core_.reset();  // its channels, while io_ still lives
+        // Time for a last Refused to leave; nobody is waited for.
+        bool stopped = false;
+        reactor_.runUntil(
+            [&] {
+                if (!std::exchange(stopped, true)) core_->stop();
+                return core_->quiet();
+            },
+            SteadyClock::now() + Milliseconds{50});
+        reactor_.end();
     }
 
     template <class Fn>
     void onCore(Fn&& fn) {
-        asio::post(io_, [this, fn = std::forward<Fn>(fn)]() mutable { fn(*core_); });
+        reactor_.enter([this, fn = std::forward<Fn>(fn)]() mutable { fn(*core_); });
     }
     void sendControl(std::vector<std::byte> bytes) {
         onCore([part = Part::of(std::move(bytes))](HostCore& core) mutable {
@@ -91,14 +91,11 @@ public:
     }
 
     field::TypeRegistry& types_;
-    asio::io_context io_{1};
-    asio::executor_work_guard<asio::io_context::executor_type> work_{io_.get_executor()};
     Inbox inbox_;
     Progress progress_;
     std::uint16_t port_ = 0;
+    Reactor reactor_;
     std::unique_ptr<HostCore> core_;
-    std::unique_ptr<Timer> linger_;
-    std::thread thread_;
     std::uint64_t imagesOf_ = 0;  // frame
     std::uint32_t images_ = 0;    // sent for it
 };
@@ -112,7 +109,11 @@ std::uint16_t ServerHost::port() const noexcept { return impl_->port_; }
 
 ServerEvent ServerHost::next(std::chrono::steady_clock::time_point deadline) {
     while (true) {
-        auto item = impl_->inbox_.pop(deadline);
+        auto item = impl_->inbox_.pop();
+        if (!item) {
+            impl_->reactor_.runUntil([&] { return !impl_->inbox_.empty(); }, deadline);
+            item = impl_->inbox_.pop();
+        }
         if (!item) return Nothing{};
         if (const auto* offer = std::get_if<SchemaOffer>(&*item)) {
             impl_->agree(*offer);
@@ -133,7 +134,10 @@ ServerEvent ServerHost::next(std::chrono::steady_clock::time_point deadline) {
     }
 }
 
-Queued ServerHost::peek() const { return impl_->inbox_.peek(); }
+Queued ServerHost::peek() const {
+    impl_->reactor_.poll();
+    return impl_->inbox_.peek();
+}
 
 void ServerHost::send(Ready ready) {
     ready.images = ready.n == impl_->imagesOf_ ? impl_->images_ : 0;
@@ -162,6 +166,9 @@ void ServerHost::send(Image image) {
 
 void ServerHost::setActivity(Activity activity) noexcept { impl_->progress_.activity = activity; }
 
-void ServerHost::quit() { impl_->inbox_.push(ServerEvent{Quit{}}, 0); }
+void ServerHost::quit() {
+    impl_->inbox_.push(ServerEvent{Quit{}}, 0);
+    impl_->reactor_.nudge();
+}
 
 }  // namespace gnomon::net

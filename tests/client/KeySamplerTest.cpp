@@ -53,10 +53,10 @@ TEST(KeySampler, CubicSplineReproducesACubic) {
     for (const float t : times)
         for (const double v : {slope(t), x(t), slope(t)})
             for (const double axis : {v, 0.0, -v}) values.push_back(static_cast<float>(axis));
-    const Keys keys{
-        .interpolation = Interpolation::cubicSpline, .times = times, .values = values};
+    const Keys keys{.interpolation = Interpolation::cubicSpline, .times = times, .values = values};
     ASSERT_TRUE(complete(keys, 3));
-    for (double t = 1.0; t <= 4.0; t += 0.125) expectNear(sampleVector(keys, t), {x(t), 0, -x(t)}, 1e-4);
+    for (double t = 1.0; t <= 4.0; t += 0.125)
+        expectNear(sampleVector(keys, t), {x(t), 0, -x(t)}, 1e-4);
 }
 
 dvec4 aboutY(double angle) { return {0.0, std::sin(angle / 2), 0.0, std::cos(angle / 2)}; }

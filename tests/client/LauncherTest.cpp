@@ -114,8 +114,8 @@ TEST(Launcher, AProgramThatIsNotThereIsNamed) {
 
 TEST(Launcher, ServersThatDoNotListenToReasonAreKilled) {
     Record record;
-    Launcher launcher{record.options(
-        {script("left", "trap '' TERM; echo port 1; while :; do sleep 0.1; done")})};
+    Launcher launcher{
+        record.options({script("left", "trap '' TERM; echo port 1; while :; do sleep 0.1; done")})};
     ASSERT_TRUE(record.waitForPorts(1));
     const int pid = launcher.processes()[0];
     const auto begun = std::chrono::steady_clock::now();
@@ -126,8 +126,9 @@ TEST(Launcher, ServersThatDoNotListenToReasonAreKilled) {
 
 TEST(Launcher, OnlyTheFirstWholePortLineCounts) {
     Record record;
-    Launcher launcher{record.options({script(
-        "left", "echo port 99999; echo port; echo port 12x; printf 'port 4'; echo 2; echo port 7;"
+    Launcher launcher{record.options(
+        {script("left",
+                "echo port 99999; echo port; echo port 12x; printf 'port 4'; echo 2; echo port 7;"
                 "exec sleep 1000")})};
     ASSERT_TRUE(record.waitForLine("left: port 7"));
     ASSERT_EQ(record.ports().size(), 1U);

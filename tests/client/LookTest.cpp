@@ -41,12 +41,15 @@ INSTANTIATE_TEST_SUITE_P(
     Table, LookAtBox,
     testing::Values(
         BoxCase{"Cube", {.min = math::dvec3{-1.0}, .max = math::dvec3{1.0}}, opening(1.0, 1.5)},
-        BoxCase{"FarAway",
-                {.min = math::dvec3{1e6, 1e6, 1e6}, .max = math::dvec3{1e6 + 10, 1e6 + 1, 1e6 + 30}},
-                opening(0.3, 1.0)},
-        BoxCase{"Tiny", {.min = math::dvec3{0.0}, .max = math::dvec3{1e-4, 1e-3, 1e-4}},
+        BoxCase{
+            "FarAway",
+            {.min = math::dvec3{1e6, 1e6, 1e6}, .max = math::dvec3{1e6 + 10, 1e6 + 1, 1e6 + 30}},
+            opening(0.3, 1.0)},
+        BoxCase{"Tiny",
+                {.min = math::dvec3{0.0}, .max = math::dvec3{1e-4, 1e-3, 1e-4}},
                 opening(1.0, 3.0)},
-        BoxCase{"LopsidedWall", {.min = math::dvec3{-5, 0, -5}, .max = math::dvec3{5, 3, 5}},
+        BoxCase{"LopsidedWall",
+                {.min = math::dvec3{-5, 0, -5}, .max = math::dvec3{5, 3, 5}},
                 Opening{.left = -1.5, .right = 0.2, .bottom = -0.9, .top = 0.1}}),
     [](const auto& row) { return row.param.name; });
 

@@ -30,13 +30,9 @@ TEST(Statistics, TellWhatTheFramesWereLike) {
     const auto begun = Statistics::Clock::time_point{} + 1h;
     for (std::uint64_t i = 0; i < 101; ++i) {
         const auto now = begun + i * 20ms;
-        statistics.add({.n = i + 1,
-                        .shown = i,
-                        .ms = 15.0,
-                        .skewMs = 0.5,
-                        .waitedFor = "left",
-                        .bytes = 96},
-                       servers, now);
+        statistics.add(
+            {.n = i + 1, .shown = i, .ms = 15.0, .skewMs = 0.5, .waitedFor = "left", .bytes = 96},
+            servers, now);
         EXPECT_EQ(statistics.line(now).has_value(), i == 50 || i == 100) << i;
     }
     const auto json = statistics.json(servers);

@@ -46,17 +46,16 @@ TEST(ViewOptions, AreReadInTheirUnits) {
 TEST(ViewOptions, WithoutEyeHaveNoLook) { EXPECT_FALSE(parse({"--size", "1x1"}).view.look()); }
 
 TEST(ViewOptions, LightsMayComeSeveralTimes) {
-    const auto lights =
-        parse({"--sun", "0,1,0", "--spot", "1,2,3,0,-1,0,40,0.5", "--sun", "1,0,0,0.25",
-               "--point", "4,5,6,0.1"})
-            .lights;
+    const auto lights = parse({"--sun", "0,1,0", "--spot", "1,2,3,0,-1,0,40,0.5", "--sun",
+                               "1,0,0,0.25", "--point", "4,5,6,0.1"})
+                            .lights;
     ASSERT_EQ(lights.size(), 4U);
     EXPECT_EQ(std::get<Sun>(lights[0]), (Sun{.toward = {0, 1, 0}}));
     EXPECT_EQ(std::get<Sun>(lights[1]), (Sun{.toward = {1, 0, 0}, .angle = 0.25 * degree}));
-    EXPECT_EQ(std::get<Spot>(lights[2]), (Spot{.position = {1, 2, 3},
-                                               .direction = {0, -1, 0},
-                                               .angle = 40 * degree,
-                                               .radius = 0.5}));
+    EXPECT_EQ(
+        std::get<Spot>(lights[2]),
+        (Spot{
+            .position = {1, 2, 3}, .direction = {0, -1, 0}, .angle = 40 * degree, .radius = 0.5}));
     EXPECT_EQ(std::get<Point>(lights[3]), (Point{.position = {4, 5, 6}, .radius = 0.1}));
 }
 

@@ -2,8 +2,10 @@
 #include <gnomon/client/WallSetup.h>
 #include <gnomon/config/Layout.h>
 #include <gnomon/config/Load.h>
+#include <gnomon/image/Png.h>
 #include <gnomon/scene/CameraView.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -66,7 +68,8 @@ TEST_P(EveryWall, EachViewportLooksThroughItsPartOfItsScreen) {
                                      math::tileFromWhole(view.part) * view.whole.clipFromEye),
                           1e-12);
                 EXPECT_EQ(view.view.eyeFromWorld, view.whole.eyeFromWorld);
-                const auto pixels = scene::pixelRect(aspect.get(made->viewports[i])->rect, made->size);
+                const auto pixels =
+                    scene::pixelRect(aspect.get(made->viewports[i])->rect, made->size);
                 EXPECT_EQ(pixels.width, tile.width);
                 EXPECT_EQ(pixels.height, tile.height);
             }
@@ -127,8 +130,8 @@ std::vector<std::string> wallFiles() {
 
 INSTANTIATE_TEST_SUITE_P(Configs, EveryWall, testing::ValuesIn(wallFiles()), [](const auto& row) {
     std::string name = row.param.substr(0, row.param.find('.'));
-    std::replace_if(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; },
-                    '_');
+    std::replace_if(
+        name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
     return name;
 });
 
@@ -165,11 +168,46 @@ TEST(WallSetup, ShadowsAreAsTheConfigSays) {
     }
 }
 
+// The image lies across the border of two tiles; each draws it at its own place, in its pixels.
+TEST(WallSetup, TheForegroundGoesOnAcrossTiles) {
+    const auto file = testing::TempDir() + "gnomon-logo-" + std::to_string(::getpid()) + ".png";
+    orThrow(image::writePng(file, image::blank(40, 10, 4)));
+    config::Config config;
+    config.render.foreground =
+        config::Foreground{.image = file, .position = {0.4, 0.5}, .height = 0.1};
+    config.screens.push_back({.name = "front",
+                              .lowerLeft = {-1, 0, 0},
+                              .lowerRight = {1, 0, 0},
+                              .upperLeft = {-1, 1, 0},
+                              .tiles = {2, 1}});
+    for (int column = 0; column < 2; ++column)
+        config.servers.push_back(
+            {.name = std::to_string(column),
+             .windows = {
+                 {.size = {100, 100}, .viewports = {{.screen = "front", .tile = {column, 0}}}}}});
+    const auto types = test::sceneTypes();
+    field::Aspect aspect{types, 2};
+    const auto wall = orThrow(buildWall(aspect, config, makeSceneTree(aspect).root));
+    const std::array<double, 2> lefts{80.0, -20.0};
+    for (std::size_t i = 0; i < 2; ++i) {
+        const auto& foregrounds = aspect.get(wall.viewports[i])->foregrounds;
+        ASSERT_EQ(foregrounds.size(), 1U);
+        const auto* logo = aspect.get(Ref<scene::ImageForeground>{foregrounds[0].id});
+        ASSERT_NE(logo, nullptr);
+        EXPECT_EQ(logo->rect.get(),
+                  (math::Rect{.left = lefts[i], .bottom = 50, .width = 40, .height = 10}));
+        EXPECT_EQ(aspect.get(logo->image.get())->pixels->size(), 40U * 10U * 4U);
+    }
+    std::filesystem::remove(file);
+}
+
 TEST(WallSetup, OpeningIsWhatTheHeadSees) {
     config::Config config;
     config.user.head = {0.5, 1.0, 2.0};
-    config.screens.push_back(
-        {.name = "front", .lowerLeft = {-1, 0, 0}, .lowerRight = {1, 0, 0}, .upperLeft = {-1, 2, 0}});
+    config.screens.push_back({.name = "front",
+                              .lowerLeft = {-1, 0, 0},
+                              .lowerRight = {1, 0, 0},
+                              .upperLeft = {-1, 2, 0}});
     const Opening expected{.left = -0.75, .right = 0.25, .bottom = -0.5, .top = 0.5};
     EXPECT_EQ(wallOpening(config), expected);
     EXPECT_EQ(wallDistance(config), 2.0);

@@ -53,10 +53,27 @@ TEST(HostileText, DeepNestingIsRefused) {
 }
 
 TEST(HostileText, WhatTheTomlLibraryTakesForGrantedIsRefused) {
-    for (const char* text :
-         {"[=]",    "[.a]",  "[[=]]",  "[[a]=",  "a = [",        "a = {",        "[",
-          "[[",     "a.",    "a =",    "\"",     "'''",          "a = \"\\",     "a = 0x",
-          "a = 1_", "a = +", "a = 1e", "a = 1-", "a = \xd0\xa2", "\xc2\xa0a = 1"}) {
+    for (const char* text : {"[=]",
+                             "[.a]",
+                             "[[=]]",
+                             "[[a]=",
+                             "a = [",
+                             "a = {",
+                             "[",
+                             "[[",
+                             "a.",
+                             "a =",
+                             "\"",
+                             "'''",
+                             "a = \"\\",
+                             "a = 0x",
+                             "a = 1_",
+                             "a = +",
+                             "a = 1e",
+                             "a = 1-",
+                             "a = \xd0\xa2",
+                             "\xc2\xa0 = 1",
+                             "a = \"\"\"x\\ \xd0\xa2\"\"\""}) {
         expectRefused(text);
     }
 }

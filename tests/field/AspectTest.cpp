@@ -16,7 +16,7 @@ TEST(Aspect, IdsAreOfItsSpaceAndNeverUsedAgain) {
         EXPECT_TRUE(seen.insert(id).second);
         if (i % 2 == 0) expectApplied(pair.source.destroy(item));
         if (i % 7 == 0) pair.exchange();
-        if (i % 2 == 0) EXPECT_EQ(pair.source.find(id), nullptr);
+        EXPECT_EQ(pair.source.find(id) == nullptr, i % 2 == 0);
     }
     pair.exchange();
     pair.expectEqual();

@@ -156,6 +156,9 @@ TEST(Report, KeepsEqualWarningsOnceAndCountsWhatIsTooMuch) {
 TEST(Report, MakesTextFitForOneLine) {
     EXPECT_EQ(printable("a\nb\x1b[31m\x7f"), "a?b?[31m?");
     EXPECT_EQ(printable("abcdef", 3), "abc...");
+    EXPECT_EQ(printable("Ma\u00dfe \u65e5\U0001f600"), "Ma\u00dfe \u65e5\U0001f600");
+    EXPECT_EQ(printable("\u65e5\u65e5", 4), "\u65e5...");  // characters are cut whole
+    EXPECT_EQ(printable("\xff\xc0\xaf\xed\xa0\x80\xe6\x97"), "????????");
 }
 
 }  // namespace

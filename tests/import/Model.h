@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gnomon/field/Aspect.h>
+#include <gnomon/scene/Geometry.h>
 #include <gnomon/scene/Imported.h>
 
 #include <cstring>

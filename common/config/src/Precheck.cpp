@@ -1,26 +1,22 @@
 #include "Precheck.h"
 
+#include <fmt/format.h>
+
 namespace gnomon::config {
 namespace {
 
 constexpr int maxKeyParts = 16;
 
-// The text after a string that starts @p text with a quote; TOML's four kinds of string.
+// The text after the string on one line that starts @p text with its quote.
 std::string_view afterString(std::string_view text) {
     const char quote = text.front();
-    const bool escapes = quote == '"';
-    const bool isMultiline = text.size() >= 3 && text[1] == quote && text[2] == quote;
-    text.remove_prefix(isMultiline ? 3 : 1);
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (escapes && text[i] == '\\') {
+    for (std::size_t i = 1; i < text.size(); ++i) {
+        if (quote == '"' && text[i] == '\\') {
             ++i;
-        } else if (text[i] == '\n' && !isMultiline) {
+        } else if (text[i] == '\n') {
             return text.substr(i);  // not closed: the parser will complain here
         } else if (text[i] == quote) {
-            if (!isMultiline) return text.substr(i + 1);
-            if (text.substr(i, 3) == std::string_view{quote == '"' ? "\"\"\"" : "'''"}) {
-                return text.substr(i + 3);
-            }
+            return text.substr(i + 1);
         }
     }
     return {};
@@ -48,6 +44,9 @@ std::optional<Finding> precheck(std::string_view text, std::string_view filename
     int parts = 1;
     while (!text.empty()) {
         const char c = text.front();
+        if (text.starts_with("\"\"\"") || text.starts_with("'''")) {
+            return finding("a text of several lines, which nothing here can be");
+        }
         if (c == '"' || c == '\'') {
             text = afterString(text);
             continue;

@@ -17,10 +17,6 @@ std::string nameOf(Id id) {
     return "container " + std::to_string(id.space()) + ":" + std::to_string(id.counter());
 }
 
-tl::unexpected<Error> refused(const Reader& from, const std::string& why) {
-    return fail(Errc::protocol, "change list, byte " + std::to_string(from.at()) + ": " + why);
-}
-
 }  // namespace
 
 Payload PayloadStore::find(const Hash128& hash) const {
@@ -67,11 +63,14 @@ FieldContainer& Aspect::insert(const TypeInfo& type, Id id) {
 const FieldContainer& Aspect::create(const TypeInfo& type) {
     GNOMON_EXPECTS(nextCounter_ < Id::counterMask, "an aspect ran out of ids");
     FieldContainer& made = insert(type, Id::make(space_, nextCounter_++));
-    if (recorded(made)) {
-        made.uncommitted_ = true;
-        created_.push_back(made.id_);
-    }
+    if (recorded(made)) listCreated(made);
     return made;
+}
+
+void Aspect::listCreated(FieldContainer& container) {
+    container.uncommitted_ = true;
+    container.slot_ = static_cast<std::uint32_t>(created_.size());
+    created_.push_back(&container);
 }
 
 const FieldContainer* Aspect::find(Id id) const noexcept {
@@ -98,7 +97,10 @@ void Aspect::finishEdit(FieldContainer& container) {
     const auto counted = countUses();
     GNOMON_EXPECTS(counted.has_value(), "a field refers to a container that does not exist");
     if (!recorded(container)) return;
-    if (container.pending_ == 0 && !container.uncommitted_) changed_.push_back(container.id_);
+    if (container.pending_ == 0 && !container.uncommitted_) {
+        container.slot_ = static_cast<std::uint32_t>(changed_.size());
+        changed_.push_back(&container);
+    }
     container.pending_ |= mask;
 }
 
@@ -173,15 +175,18 @@ void Aspect::drop(FieldContainer& container, std::vector<Id>* orphans) {
 void Aspect::erase(FieldContainer& container) {
     digest_ -= container.digest_;
     const Id id = container.id_;
+    if (container.uncommitted_)
+        created_[container.slot_] = nullptr;
+    else if (container.pending_ != 0)
+        changed_[container.slot_] = nullptr;
     if (recorded(container) && id.space() == space_ && !container.uncommitted_)
         destroyed_.push_back(id);
     containers_.erase(id);
 }
 
 ChangeList Aspect::commit() {
-    const auto exists = [&](Id id) { return containers_.contains(id); };
-    std::erase_if(created_, [&](Id id) { return !exists(id); });
-    std::erase_if(changed_, [&](Id id) { return !exists(id); });
+    std::erase(created_, nullptr);
+    std::erase(changed_, nullptr);
     ChangeList list;
     if (created_.empty() && changed_.empty() && destroyed_.empty()) return list;
 
@@ -190,22 +195,21 @@ ChangeList Aspect::commit() {
     writer_.scalar(static_cast<std::uint32_t>(created_.size()));
     writer_.scalar(static_cast<std::uint32_t>(created_.size() + changed_.size()));
     writer_.scalar(static_cast<std::uint32_t>(destroyed_.size()));
-    for (const Id id : created_) {
-        writer_.scalar(containers_.find(id)->second->type_->id);
-        writer_.id(id);
+    for (const FieldContainer* container : created_) {
+        writer_.scalar(container->type_->id);
+        writer_.id(container->id_);
     }
-    const auto writeChange = [&](Id id, bool created) {
-        FieldContainer& container = *containers_.find(id)->second;
+    const auto writeChange = [&](FieldContainer& container, bool created) {
         const Mask mask = created ? container.type_->allFields() : container.pending_;
-        writer_.id(id);
+        writer_.id(container.id_);
         writer_.scalar(mask);
         container.write(writer_, mask, created);
         container.clearRanges();
         container.pending_ = 0;
         container.uncommitted_ = false;
     };
-    for (const Id id : created_) writeChange(id, true);
-    for (const Id id : changed_) writeChange(id, false);
+    for (FieldContainer* container : created_) writeChange(*container, true);
+    for (FieldContainer* container : changed_) writeChange(*container, false);
     for (const Id id : destroyed_) writer_.id(id);
     created_.clear();
     changed_.clear();
@@ -239,129 +243,6 @@ ChangeList Aspect::snapshot() const {
         container->write(to, mask, true);
     }
     return {.bytes = to.take(), .payloads = to.takePayloads()};
-}
-
-Result<void> Aspect::apply(const ChangeList& list, Applied* applied) {
-    return applyBlocks(list, applied, false);
-}
-
-Result<std::uint64_t> Aspect::adopt(const ChangeList& list) {
-    const std::uint64_t offset = Id::make(space_, nextCounter_ - 1).value;
-    auto done = applyBlocks(list, nullptr, true);
-    if (!done) return tl::unexpected{std::move(done).error()};
-    return offset;
-}
-
-Result<void> Aspect::applyBlocks(const ChangeList& list, Applied* applied, bool own) {
-    payloads_.arrive(list.payloads);
-    // With an offset the reader refuses ids so large that they would leave those not yet given out.
-    Reader from{list.bytes, &payloads_, own ? Id::make(space_, nextCounter_ - 1).value : 0};
-    Result<void> done;
-    while (done && from.remaining() > 0) done = applyBlock(from, applied, own);
-    payloads_.endArrival();
-    return done;
-}
-
-Result<void> Aspect::applyCreations(Reader& from, std::uint32_t count, Applied* applied, bool own) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const auto typeId = from.scalar<TypeId>();
-        const Id id = from.id();
-        if (from.failed()) return refused(from, from.why());
-        const TypeInfo* type = types_.find(typeId);
-        if (type == nullptr)
-            return refused(from, nameOf(id) + " is of unknown type " + std::to_string(typeId));
-        if (!id) return refused(from, "a container with id 0");
-        if (!own && space_ != 0 && id.space() == space_)
-            return refused(from, nameOf(id) + " is not the sender's to create");
-        if (containers_.contains(id)) return refused(from, nameOf(id) + " is created twice");
-        FieldContainer& made = insert(*type, id);
-        if (own) nextCounter_ = std::max(nextCounter_, id.counter() + 1);
-        if (own && recorded(made)) {
-            made.uncommitted_ = true;
-            created_.push_back(id);
-        }
-        if (applied != nullptr) applied->created.push_back(id);
-    }
-    return {};
-}
-
-Result<void> Aspect::applyChanges(Reader& from, std::uint32_t count,
-                                  std::vector<FieldContainer*>& touched, Applied* applied,
-                                  bool own) {
-    touched.reserve(std::min<std::size_t>(count, from.remaining() / 12));
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const Id id = from.id();
-        const auto mask = from.scalar<Mask>();
-        if (from.failed()) return refused(from, from.why());
-        const auto found = containers_.find(id);
-        if (found == containers_.end()) return refused(from, nameOf(id) + " does not exist");
-        FieldContainer& container = *found->second;
-        const auto where = [&] { return nameOf(id) + " (" + container.type_->name + "): "; };
-        if (!own && space_ != 0 && id.space() == space_)
-            return refused(from, where() + "not the sender's to change");
-        if ((mask & ~container.type_->allFields()) != 0)
-            return refused(from,
-                           where() + "mask " + std::to_string(mask) + " names fields it has not");
-        container.changing(mask);
-        container.read(from, mask);
-        // Settled also where it failed, so that the counts stay true to the fields.
-        settle(container);
-        const auto counted = countUses();
-        if (from.failed()) return refused(from, where() + from.why());
-        if (!counted) return refused(from, where() + counted.error().what);
-        container.clearRanges();
-        container.changed(mask);
-        touched.push_back(&container);
-        if (applied != nullptr) applied->changed.push_back({.id = id, .mask = mask});
-    }
-    return {};
-}
-
-Result<void> Aspect::applyReleases(Reader& from, std::uint32_t count,
-                                   std::vector<FieldContainer*>& going, bool own) {
-    going.reserve(std::min<std::size_t>(count, from.remaining() / 8));
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const Id id = from.id();
-        if (from.failed()) return refused(from, from.why());
-        const auto found = containers_.find(id);
-        if (found == containers_.end() || found->second->dropped_)
-            return refused(from, nameOf(id) + " does not exist");
-        if (!own && space_ != 0 && id.space() == space_)
-            return refused(from, nameOf(id) + " is not the sender's to release");
-        drop(*found->second, nullptr);
-        going.push_back(found->second.get());
-    }
-    return {};
-}
-
-Result<void> Aspect::applyBlock(Reader& from, Applied* applied, bool own) {
-    const auto version = from.scalar<std::uint8_t>();
-    if (version != ChangeList::version)
-        return refused(from, "version " + std::to_string(version) + ", expected " +
-                                 std::to_string(ChangeList::version));
-    const auto creations = from.scalar<std::uint32_t>();
-    const auto changes = from.scalar<std::uint32_t>();
-    const auto releases = from.scalar<std::uint32_t>();
-    if (from.failed()) return refused(from, from.why());
-    std::vector<FieldContainer*> touched;
-    std::vector<FieldContainer*> going;
-    if (auto done = applyCreations(from, creations, applied, own); !done) return done;
-    if (auto done = applyChanges(from, changes, touched, applied, own); !done) return done;
-    // Those released together may refer to each other in any way, so all let go before any goes.
-    if (auto done = applyReleases(from, releases, going, own); !done) return done;
-    for (const FieldContainer* container : touched) {
-        if (container->dropped_) continue;
-        auto sound = container->validate();
-        if (!sound) return refused(from, sound.error().what);
-    }
-    for (FieldContainer* container : going) {
-        const Id id = container->id_;
-        if (container->references_ > 0)
-            return refused(from, nameOf(id) + " is released but still referred to");
-        erase(*container);
-        if (applied != nullptr) applied->destroyed.push_back(id);
-    }
-    return {};
 }
 
 void Aspect::stale(FieldContainer& container) {

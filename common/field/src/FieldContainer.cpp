@@ -1,6 +1,5 @@
-#include <gnomon/field/FieldContainer.h>
-
 #include <fmt/format.h>
+#include <gnomon/field/FieldContainer.h>
 
 #include <iterator>
 
@@ -13,15 +12,33 @@ void printValue(std::string& to, Reader& from, std::string_view layout) {
     for (const char letter : layout) {
         if (!std::exchange(first, false)) to += ' ';
         switch (letter) {
-            case 'b': fmt::format_to(out, "{}", from.scalar<bool>()); break;
-            case 'B': fmt::format_to(out, "{}", from.scalar<std::uint8_t>()); break;
-            case 'i': fmt::format_to(out, "{}", from.scalar<std::int32_t>()); break;
-            case 'u': fmt::format_to(out, "{}", from.scalar<std::uint32_t>()); break;
-            case 'I': fmt::format_to(out, "{}", from.scalar<std::int64_t>()); break;
-            case 'U': fmt::format_to(out, "{}", from.scalar<std::uint64_t>()); break;
-            case 'f': fmt::format_to(out, "{}", from.scalar<float>()); break;
-            case 'd': fmt::format_to(out, "{}", from.scalar<double>()); break;
-            case 's': fmt::format_to(out, "\"{}\"", from.string()); break;
+            case 'b':
+                fmt::format_to(out, "{}", from.scalar<bool>());
+                break;
+            case 'B':
+                fmt::format_to(out, "{}", from.scalar<std::uint8_t>());
+                break;
+            case 'i':
+                fmt::format_to(out, "{}", from.scalar<std::int32_t>());
+                break;
+            case 'u':
+                fmt::format_to(out, "{}", from.scalar<std::uint32_t>());
+                break;
+            case 'I':
+                fmt::format_to(out, "{}", from.scalar<std::int64_t>());
+                break;
+            case 'U':
+                fmt::format_to(out, "{}", from.scalar<std::uint64_t>());
+                break;
+            case 'f':
+                fmt::format_to(out, "{}", from.scalar<float>());
+                break;
+            case 'd':
+                fmt::format_to(out, "{}", from.scalar<double>());
+                break;
+            case 's':
+                fmt::format_to(out, "\"{}\"", from.string());
+                break;
             case 'r': {
                 const Id id = from.id();
                 fmt::format_to(out, "{}:{}", id.space(), id.counter());
@@ -45,8 +62,8 @@ std::string print(const FieldContainer& container) {
     Writer encoded;
     container.write(encoded, type.allFields(), true);
     Reader from{encoded.written()};
-    std::string text = fmt::format("{} {}:{} {{", type.name, container.id().space(),
-                                   container.id().counter());
+    std::string text =
+        fmt::format("{} {}:{} {{", type.name, container.id().space(), container.id().counter());
     for (const FieldInfo& field : type.fields) {
         text += " " + field.name + " = ";
         std::uint32_t count = 1;

@@ -12,7 +12,8 @@ Opaque::Opaque(const TypeInfo& info) : info_{info}, values_(info.fields.size()) 
     for (std::size_t i = 0; i < values_.size(); ++i) {
         if (info.fields[i].multi) continue;
         // A string's empty length and every scalar's zero are zero bytes.
-        values_[i].push_back({.bytes = std::vector<std::byte>(minimumBytes(info.fields[i].layout))});
+        values_[i].push_back(
+            {.bytes = std::vector<std::byte>(minimumBytes(info.fields[i].layout))});
     }
 }
 

@@ -44,7 +44,6 @@ out vec2 vTexCoord;
 #ifdef HAS_COLORS
 out vec4 vColor;
 #endif
-invariant gl_Position;
 
 void main() {
     vec4 p = vec4(position, 1.0);
@@ -84,9 +83,9 @@ struct Light {
     vec4 direction;    // xyz unit, from the light; w: 0 directional, 1 point, 2 spot
     vec4 color;        // rgb times intensity
     vec4 attenuation;  // constant, linear, quadratic
-    vec4 cone;         // x, y: cosine = x * c + y; z: bit of the light
+    vec4 cone;         // strength = (x * cosine + y)^2
     vec4 ambient;
-    uvec4 maps;        // first map, number of maps, index of the light
+    uvec4 maps;        // y: number of shadow maps, z: index among the scene's lights
 };
 layout(std140, binding = 1) uniform LightBlock {
     Light lights[64];
@@ -208,6 +207,36 @@ vec3 mappedNormal(vec3 normal, vec2 uv) {
 }
 #endif
 
+#ifndef UNLIT
+// What one light adds.
+vec3 lit(int i, vec3 toLight, vec3 reaching, vec3 normal, vec3 face, vec3 toEye, vec3 diffuse) {
+#ifdef SCOPED_LIGHTS
+    uint bit = lights[i].maps.z;
+    if (((bit < 32u ? vLights.x : vLights.y) & (1u << (bit & 31u))) == 0u) return vec3(0.0);
+#endif
+    vec3 ambient = lights[i].ambient.rgb * diffuse;
+    float cosine = dot(normal, toLight);
+    reaching *= max(cosine, 0.0);
+#ifdef SHADOWS
+    if (lights[i].maps.y > 0u && cosine > 0.0 && reaching != vec3(0.0)) {
+        float faceCosine = dot(face, toLight);
+        float factor = 0.0;
+        if (faceCosine > 0.0)
+            factor = shadowFactor(i * MAPS_PER_LIGHT, int(lights[i].maps.y), vPosition, face,
+                                  faceCosine);
+        reaching *= mix(vec3(1.0), mix(shadowColor.rgb, vec3(1.0), factor), shadowColor.a);
+    }
+#endif
+    // Energy-conserving Blinn-Phong. Source: Fabian Giesen. Phong Normalization Factor Derivation.
+    // 2009.
+    vec3 halfway = toLight + toEye;
+    float h = max(dot(normal, halfway), 0.0) * inversesqrt(max(dot(halfway, halfway), 1e-12));
+    float shininess = material.specular.w;
+    float gloss = (shininess + 8.0) * 0.125 * exp2(shininess * log2(max(h, 1e-6)));
+    return ambient + reaching * (diffuse + material.specular.rgb * gloss);
+}
+#endif
+
 void main() {
     vec4 color = surfaceColor();
 #ifdef UNLIT
@@ -229,37 +258,23 @@ void main() {
     normal = mappedNormal(normal, textureCoordinate());
 #endif
     vec3 diffuse = color.rgb;
-    vec3 specular = material.specular.rgb;
-    float shininess = material.specular.w;
     vec3 radiance = mix(ambientGround.rgb, ambientSky.rgb, normal.y * 0.5 + 0.5) * diffuse;
-    int count = int(eye.w);
-    for (int i = 0; i < count; ++i) {
-#ifdef SCOPED_LIGHTS
-        uint bit = lights[i].maps.z;
-        if (((bit < 32u ? vLights.x : vLights.y) & (1u << (bit & 31u))) == 0u) continue;
-#endif
-        vec3 toLight;
-        vec3 reaching = lightReaching(i, vPosition, toLight);
-        radiance += lights[i].ambient.rgb * diffuse;
-        float cosine = dot(normal, toLight);
-        if (cosine <= 0.0 || reaching == vec3(0.0)) continue;
-#ifdef SHADOWS
-        if (lights[i].maps.y > 0u) {
-            float faceCosine = dot(face, toLight);
-            float lit = faceCosine > 0.0
-                            ? shadowFactor(lights[i].maps.xy, vPosition, face, faceCosine)
-                            : 0.0;
-            reaching *= mix(vec3(1.0), mix(shadowColor.rgb, vec3(1.0), lit), shadowColor.a);
-            if (reaching == vec3(0.0)) continue;
-        }
-#endif
-        // Energy-conserving Blinn-Phong. Source: Fabian Giesen. Phong Normalization Factor
-        // Derivation. 2009.
-        vec3 halfway = toLight + toEye;
-        float h = max(dot(normal, halfway), 0.0) * inversesqrt(max(dot(halfway, halfway), 1e-12));
-        float gloss = (shininess + 8.0) * 0.125 * exp2(shininess * log2(max(h, 1e-6)));
-        radiance += reaching * cosine * (diffuse + specular * gloss);
+    // Directional lights come first. The number of lights is fixed in the program and each call is
+    // written out: a constant index is read once for all pixels.
+#define DIRECTIONAL(i) \
+    radiance += lit(i, -lights[i].direction.xyz, lights[i].color.rgb, normal, face, toEye, diffuse);
+#define OTHER(i)                                                        \
+    {                                                                   \
+        vec3 toLight;                                                   \
+        vec3 reaching = lightReaching(i, vPosition, toLight);           \
+        radiance += lit(i, toLight, reaching, normal, face, toEye, diffuse); \
     }
+    DIRECTIONAL_LIGHTS
+    OTHER_LIGHTS
+#ifdef MANY_LIGHTS
+    int count = int(eye.w);
+    for (int i = MANY_LIGHTS; i < count; ++i) OTHER(i)
+#endif
     vec3 glow = material.emissive.rgb;
 #ifdef EMISSIVE_MAP
     glow *= texture(emissiveMap, textureCoordinate()).rgb;
@@ -280,7 +295,6 @@ std::string_view meshFactor() noexcept {
     return R"glsl(
 in vec3 vPosition;
 layout(location = 0) out float outFactor;
-layout(location = 1) uniform int lightIndex;
 
 void main() {
     surfaceColor();
@@ -289,12 +303,12 @@ void main() {
     face = dot(face, toEye) < 0.0 ? -face : face;
     face *= inversesqrt(max(dot(face, face), 1e-30));
     vec3 toLight;
-    lightReaching(lightIndex, vPosition, toLight);
+    lightReaching(0, vPosition, toLight);
     float cosine = dot(face, toLight);
     float lit = cosine > 0.0 ? 1.0 : 0.0;
 #ifdef SHADOWS
-    if (lit > 0.0 && lights[lightIndex].maps.y > 0u)
-        lit = shadowFactor(lights[lightIndex].maps.xy, vPosition, face, cosine);
+    if (lit > 0.0 && lights[0].maps.y > 0u)
+        lit = shadowFactor(0, int(lights[0].maps.y), vPosition, face, cosine);
 #endif
     // 128 means that there is no surface.
     float byteValue = floor(lit * 255.0 + 0.5);
@@ -314,22 +328,30 @@ void main() {
 )glsl";
 }
 
-std::string_view background() noexcept {
+std::string_view backgroundVertex() noexcept {
+    // Two vertices a stop; colour between stops is interpolated by the rasterizer, which costs less
+    // than a search in each pixel.
     return R"glsl(
-in vec2 vShare;
 layout(location = 0) uniform vec2 part;      // bottom and height of this tile in the whole picture
 layout(location = 1) uniform int stopCount;
 layout(location = 2) uniform vec4 stops[16]; // rgb, position; ascending
-layout(location = 0) out vec4 outColor;
+out vec3 vColor;
 void main() {
-    float at = part.x + part.y * vShare.y;
-    vec3 color = stops[0].rgb;
-    for (int i = 1; i < stopCount; ++i) {
-        float width = max(stops[i].w - stops[i - 1].w, 1e-6);
-        color = mix(color, stops[i].rgb, clamp((at - stops[i - 1].w) / width, 0.0, 1.0));
-    }
-    outColor = vec4(color, 1.0);
+    int row = gl_VertexID >> 1;
+    vec4 stop = stops[clamp(row - 1, 0, stopCount - 1)];
+    // The first row is below everything, the last above: what is outside all stops.
+    float at = row == 0 ? -1.0 : row == stopCount + 1 ? 2.0 : stop.w;
+    vColor = stop.rgb;
+    gl_Position = vec4((gl_VertexID & 1) == 0 ? -1.0 : 1.0, (at - part.x) / part.y * 2.0 - 1.0, 0.0, 1.0);
 }
+)glsl";
+}
+
+std::string_view background() noexcept {
+    return R"glsl(
+in vec3 vColor;
+layout(location = 0) out vec4 outColor;
+void main() { outColor = vec4(vColor, 1.0); }
 )glsl";
 }
 
@@ -403,7 +425,7 @@ void main() {
         float lit = 1.0;
 #ifdef SHADOWS
         if (lights[i].maps.y > 0u)
-            lit = shadowFactor(lights[i].maps.xy, position, normal, cosine);
+            lit = shadowFactor(i * MAPS_PER_LIGHT, int(lights[i].maps.y), position, normal, cosine);
 #endif
         kept += reaching * mix(vec3(1.0), mix(shadowColor.rgb, vec3(1.0), lit), shadowColor.a);
     }

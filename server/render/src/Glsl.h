@@ -18,6 +18,8 @@ std::string_view meshDepth() noexcept;
 std::string_view meshFactor() noexcept;
 /// A triangle that covers the viewport.
 std::string_view coverVertex() noexcept;
+/// A strip of coloured rows, from below the picture to above it.
+std::string_view backgroundVertex() noexcept;
 std::string_view background() noexcept;
 std::string_view foregroundVertex() noexcept;
 std::string_view foreground() noexcept;

@@ -68,26 +68,33 @@ Lights::Lights(const gl::Api& gl) : gl_{gl}, lights_{gl}, view_{gl} {
 
 Lights::Uploaded Lights::upload(const scene::FlatScene& flat, const math::View& view,
                                 const math::dvec3& origin, const scene::Viewport& viewport,
-                                const shadow::ShadowMaps* maps, int only) {
+                                shadow::ShadowMaps* maps, int only) {
     Uploaded done;
     std::array<LightBlock, scene::FlatScene::maxLights> blocks;
+    std::array<field::Id, scene::FlatScene::maxLights> order;
     std::uint64_t used = 0;
     const auto planes = math::frustumPlanes(view.clipFromWorld());
     const auto uses = flat.lights();
-    for (std::size_t i = 0; i < uses.size(); ++i) {
+    const auto put = [&](std::size_t i, bool directional) {
         const auto& use = uses[i];
         if (only >= 0 ? i != static_cast<std::size_t>(only)
                       : !use.light->on || !(use.light->intensity > 0.0F))
-            continue;
+            return;
         const auto shape = shadow_fit::lightShape(use);
-        if (only < 0 && !reaches(shape, planes)) continue;
+        if (directional != (shape.kind == shadow_fit::LightKind::directional)) return;
+        if (only < 0 && !reaches(shape, planes)) return;
         LightBlock block = blockFor(use, shape, origin);
-        const auto range = maps == nullptr ? shadow::ShadowMaps::Range{} : maps->range(use.node->id());
-        block.maps = {range.first, range.count, static_cast<std::uint32_t>(i), 0U};
-        done.shadows = done.shadows || range.count > 0;
+        block.maps = {0U, maps == nullptr ? 0U : maps->count(use.node->id()),
+                      static_cast<std::uint32_t>(i), 0U};
+        order[static_cast<std::size_t>(done.count)] = use.node->id();
         used |= std::uint64_t{1} << i;
         blocks[static_cast<std::size_t>(done.count++)] = block;
-    }
+    };
+    for (std::size_t i = 0; i < uses.size(); ++i) put(i, true);
+    done.directional = done.count;
+    for (std::size_t i = 0; i < uses.size(); ++i) put(i, false);
+    if (maps != nullptr)
+        done.mapsPerLight = maps->arrange(std::span{order}.first(static_cast<std::size_t>(done.count)));
     done.scoped = std::any_of(
         flat.instances().begin(), flat.instances().end(),
         [&](const scene::FlatScene::Instance& instance) { return (instance.lights & used) != used; });

@@ -27,7 +27,7 @@ void Overlay::drawBackground(const field::Aspect& scene, const scene::Viewport& 
     gl_.DepthMask(GL_FALSE);
     gl_.Disable(GL_CULL_FACE);
     gl_.BindVertexArray(empty_.id());
-    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+    gl_.DrawArrays(GL_TRIANGLE_STRIP, 0, 2 * (count + 2));
     gl_.DepthFunc(GL_GREATER);
     gl_.DepthMask(GL_TRUE);
 }

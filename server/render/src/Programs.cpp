@@ -29,6 +29,17 @@ std::string definesFor(const Variant& v) {
     define((v.features & Variant::scopedLights) != 0, "SCOPED_LIGHTS");
     define((v.features & Variant::shadows) != 0, "SHADOWS");
     define(v.pass == Variant::Pass::depth, "DEPTH_ONLY");
+    const auto calls = [&](const char* list, const char* call, int first, int count) {
+        text += std::string{"#define "} + list;
+        for (int i = first; i < first + count; ++i)
+            text += std::string{" "} + call + "(" + std::to_string(i) + ")";
+        text += "\n";
+    };
+    calls("DIRECTIONAL_LIGHTS", "DIRECTIONAL", 0, v.directionalLights);
+    calls("OTHER_LIGHTS", "OTHER", v.directionalLights, v.otherLights);
+    if ((v.features & Variant::manyLights) != 0)
+        text += "#define MANY_LIGHTS " + std::to_string(v.directionalLights + v.otherLights) + "\n";
+    text += "#define MAPS_PER_LIGHT " + std::to_string(v.mapsPerLight) + "\n";
     return text;
 }
 
@@ -52,7 +63,7 @@ void Programs::useFilter(std::string_view name) {
     filter_ = name;
     std::erase_if(meshes_,
                   [](const auto& entry) { return (entry.first.features & Variant::shadows) != 0; });
-    combine_[1].reset();
+    std::erase_if(combine_, [](const auto& entry) { return entry.first > 0; });
 }
 
 GLuint Programs::mesh(const Variant& variant) {
@@ -84,7 +95,7 @@ GLuint Programs::mesh(const Variant& variant) {
 }
 
 GLuint Programs::background() {
-    if (!background_) background_ = build("background", "", glsl::coverVertex(), {glsl::background()});
+    if (!background_) background_ = build("background", "", glsl::backgroundVertex(), {glsl::background()});
     return background_.id();
 }
 
@@ -94,14 +105,16 @@ GLuint Programs::foreground() {
     return foreground_.id();
 }
 
-GLuint Programs::combine(bool shadows) {
-    gl::Program& program = combine_[shadows ? 1 : 0];
-    if (!program)
-        program = shadows ? build("combine", "#define SHADOWS\n", glsl::coverVertex(),
-                                  {glsl::meshCommon(), shadow::lookupGlsl(),
-                                   shadow::findFilter(filter_)->glsl, glsl::combine()})
-                          : build("combine", "", glsl::coverVertex(),
-                                  {glsl::meshCommon(), glsl::combine()});
+GLuint Programs::combine(int mapsPerLight) {
+    gl::Program& program = combine_[mapsPerLight];
+    if (program) return program.id();
+    const std::string defines =
+        "#define SHADOWS\n#define MAPS_PER_LIGHT " + std::to_string(mapsPerLight) + "\n";
+    program = mapsPerLight > 0 ? build("combine", defines, glsl::coverVertex(),
+                                       {glsl::meshCommon(), shadow::lookupGlsl(),
+                                        shadow::findFilter(filter_)->glsl, glsl::combine()})
+                               : build("combine", "", glsl::coverVertex(),
+                                       {glsl::meshCommon(), glsl::combine()});
     return program.id();
 }
 

@@ -23,10 +23,16 @@ struct Variant {
         unlit = 16,
         scopedLights = 32,
         shadows = 64,
+        manyLights = 128,  ///< more lights than are written out
     };
+    static constexpr int maxDirectional = 4;  ///< directional lights a program is written out for
+    static constexpr int maxOther = 8;        ///< and others
     Pass pass = Pass::color;
     std::uint32_t format = 0;    ///< MeshFormat
     std::uint32_t features = 0;
+    int directionalLights = 0;
+    int otherLights = 0;
+    int mapsPerLight = 0;  ///< with shadows
     friend auto operator<=>(const Variant&, const Variant&) = default;
 };
 
@@ -41,7 +47,7 @@ public:
     GLuint mesh(const Variant& variant);
     GLuint background();
     GLuint foreground();
-    GLuint combine(bool shadows);
+    GLuint combine(int mapsPerLight);
 
     /// A material's own program, with the places of the uniforms it declares. id 0: it does not
     /// compile; error says why.
@@ -63,7 +69,7 @@ private:
     std::map<Variant, gl::Program> meshes_;
     gl::Program background_;
     gl::Program foreground_;
-    gl::Program combine_[2];
+    std::map<int, gl::Program> combine_;  ///< by maps per light, 0: no shadows
     std::unordered_map<field::Id, Foreign> foreign_;
 };
 

@@ -62,7 +62,7 @@ struct Renderer::Parts {
                                                      field::Id group) const;
     Result<void> drawViewport(const scene::Window& window, const scene::Viewport& viewport,
                               FrameStatistics& done, double time);
-    void combine(const Target& target, const Seen& seen, bool shadows) const;
+    void combine(const Target& target, const Seen& seen, int mapsPerLight) const;
     double lap(Clock::time_point& since) const;
 
     gl::Context& context;
@@ -258,7 +258,6 @@ Result<void> Renderer::Parts::drawViewport(const scene::Window& window,
                                    shadowed ? &maps : nullptr);
     done.lights += lit.count;
     done.lightsLeftOut = static_cast<int>(drawer.flat().lightsLeftOut());
-    if (lit.shadows) maps.bind();
     if (drawer.flat().lightsLeftOut() > 0)
         warnOnce(std::to_string(drawer.flat().lightsLeftOut()) +
                  " lights more than the 64 a scene can have are left out");
@@ -280,7 +279,9 @@ Result<void> Renderer::Parts::drawViewport(const scene::Window& window,
                                       .eyeFromWorld = seen.camera.view.eyeFromWorld,
                                       .eyeWorld = seen.camera.view.eyeWorld(),
                                       .scopedLights = lit.scoped,
-                                      .shadows = lit.shadows,
+                                      .mapsPerLight = lit.mapsPerLight,
+                                      .lights = lit.count,
+                                      .directionalLights = lit.directional,
                                       .time = time};
     const auto count = [&](const PassStatistics& drawn) {
         done.triangles += drawn.triangles;
@@ -288,7 +289,7 @@ Result<void> Renderer::Parts::drawViewport(const scene::Window& window,
         done.chunksCulled += drawn.chunksCulled;
     };
     count(drawer.drawOpaque(pass));
-    if (foreign) combine(target, seen, lit.shadows);
+    if (foreign) combine(target, seen, lit.mapsPerLight);
     overlay.drawBackground(scene, viewport, seen.camera.part);
     count(drawer.drawBlended(pass));
     done.colorMs += lap(clock);
@@ -298,9 +299,9 @@ Result<void> Renderer::Parts::drawViewport(const scene::Window& window,
     return {};
 }
 
-void Renderer::Parts::combine(const Target& target, const Seen& seen, bool shadows) const {
+void Renderer::Parts::combine(const Target& target, const Seen& seen, int mapsPerLight) const {
     const GLuint depth = target.depthCopy(gl);
-    const GLuint program = const_cast<Programs&>(programs).combine(shadows);
+    const GLuint program = const_cast<Programs&>(programs).combine(mapsPerLight);
     math::dmat4 shift{1.0};
     shift[3] = math::dvec4{-seen.origin, 1.0};
     const math::mat4 originFromClip{shift * glm::inverse(seen.camera.view.clipFromWorld())};
@@ -384,7 +385,6 @@ Result<image::Image> Renderer::shadowFactor(const scene::Window& window,
     }
     const auto lit = p.lights.upload(drawer.flat(), seen.camera.view, seen.origin, *viewport,
                                      seen.states.empty() ? nullptr : &p.maps, index);
-    if (lit.shadows) p.maps.bind();
 
     const auto& at = seen.pixels;
     gl::Texture factor{gl, GLenum{GL_TEXTURE_2D}};
@@ -406,8 +406,7 @@ Result<image::Image> Renderer::shadowFactor(const scene::Window& window,
                        .clipFromWorld = seen.camera.view.clipFromWorld(),
                        .eyeFromWorld = seen.camera.view.eyeFromWorld,
                        .eyeWorld = seen.camera.view.eyeWorld(),
-                       .shadows = lit.shadows},
-                      0);
+                       .mapsPerLight = lit.mapsPerLight});
     image::Image picture = image::blank(at.width, at.height, 1);
     gl.ReadPixels(0, 0, at.width, at.height, GL_RED, GL_UNSIGNED_BYTE, picture.pixels.data());
     turnOver(picture);

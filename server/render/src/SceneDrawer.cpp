@@ -147,25 +147,34 @@ void SceneDrawer::flush(std::span<const BatchState> states,
     }
 }
 
+void SceneDrawer::useSurface(const BatchState& state, const ColorPass& pass) {
+    Variant variant{.format = state.format, .features = state.features};
+    if (pass.scopedLights) variant.features |= Variant::scopedLights;
+    if (pass.mapsPerLight > 0) variant.features |= Variant::shadows;
+    variant.mapsPerLight = pass.mapsPerLight;
+    variant.directionalLights = std::min(pass.directionalLights, Variant::maxDirectional);
+    variant.otherLights = pass.lights - variant.directionalLights;
+    if (variant.otherLights > Variant::maxOther) {
+        variant.otherLights = 0;
+        variant.features |= Variant::manyLights;
+    }
+    if ((state.features & Variant::unlit) != 0) {
+        variant = {.format = state.format, .features = state.features};
+    }
+    const GLuint program = programs_.mesh(variant);
+    gl_.UseProgram(program);
+    gl_.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, &pass.clipFromOrigin[0][0]);
+    batches_.bindMaterial(state.material);
+    gl_.BindTextures(0, 3, state.textures.data());
+}
+
 PassStatistics SceneDrawer::drawOpaque(const ColorPass& pass) {
     const PassStatistics done = gather(pass, false);
     const auto states = batches_.batches();
     for (std::size_t i = 0; i < states.size(); ++i)
         std::sort(items_[i].begin(), items_[i].end(),
                   [](const Item& a, const Item& b) { return a.distance < b.distance; });
-    flush(
-        states,
-        [&](const BatchState& state) {
-            Variant variant{.format = state.format, .features = state.features};
-            if (pass.scopedLights) variant.features |= Variant::scopedLights;
-            if (pass.shadows) variant.features |= Variant::shadows;
-            const GLuint program = programs_.mesh(variant);
-            gl_.UseProgram(program);
-            gl_.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, &pass.clipFromOrigin[0][0]);
-            batches_.bindMaterial(state.material);
-            gl_.BindTextures(0, 3, state.textures.data());
-        },
-        false);
+    flush(states, [&](const BatchState& state) { useSurface(state, pass); }, false);
     for (std::size_t i = 0; i < states.size(); ++i)
         if (states[i].foreign != nullptr && !items_[i].empty()) drawForeign(states[i], items_[i], pass);
     return done;
@@ -190,14 +199,7 @@ PassStatistics SceneDrawer::drawBlended(const ColorPass& pass) {
     gl_.DepthMask(GL_FALSE);
     for (const Sorted& draw : sorted) {
         const BatchState& state = states[draw.batch];
-        Variant variant{.format = state.format, .features = state.features};
-        if (pass.scopedLights) variant.features |= Variant::scopedLights;
-        if (pass.shadows) variant.features |= Variant::shadows;
-        const GLuint program = programs_.mesh(variant);
-        gl_.UseProgram(program);
-        gl_.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, &pass.clipFromOrigin[0][0]);
-        batches_.bindMaterial(state.material);
-        gl_.BindTextures(0, 3, state.textures.data());
+        useSurface(state, pass);
         setFaces(state);
         gl_.BindVertexArray(meshes_.vertexArray(state.format, false));
         const DrawCommand& command = draw.item.command;
@@ -250,7 +252,7 @@ void SceneDrawer::drawForeign(const BatchState& state, const std::vector<Item>& 
     gl_.Disable(GL_STENCIL_TEST);
 }
 
-void SceneDrawer::drawFactor(const ColorPass& pass, int lightIndex) {
+void SceneDrawer::drawFactor(const ColorPass& pass) {
     gather(pass, false);
     const auto states = batches_.batches();
     // A foreign material's geometry is drawn as it stands: its own vertex shader is not asked.
@@ -262,11 +264,11 @@ void SceneDrawer::drawFactor(const ColorPass& pass, int lightIndex) {
             Variant variant{.pass = Variant::Pass::factor,
                             .format = state.format,
                             .features = state.features & (Variant::alphaMask | Variant::diffuseMap)};
-            if (pass.shadows) variant.features |= Variant::shadows;
+            if (pass.mapsPerLight > 0) variant.features |= Variant::shadows;
+            variant.mapsPerLight = pass.mapsPerLight;
             const GLuint program = programs_.mesh(variant);
             gl_.UseProgram(program);
             gl_.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, &pass.clipFromOrigin[0][0]);
-            gl_.ProgramUniform1i(program, 1, lightIndex);
             batches_.bindMaterial(state.material);
             gl_.BindTextures(0, 3, state.textures.data());
         },

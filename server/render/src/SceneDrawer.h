@@ -41,15 +41,17 @@ public:
         math::dmat4 eyeFromWorld{1.0};
         math::dvec3 eyeWorld{0.0};
         bool scopedLights = false;
-        bool shadows = false;
+        int mapsPerLight = 0;  ///< 0: no shadows
+        int lights = 0;
+        int directionalLights = 0;  ///< the first of them
         double time = 0.0;
     };
     /// Opaque and masked surfaces, nearest first. Foreign materials mark stencil 1.
     PassStatistics drawOpaque(const ColorPass& pass);
     /// Blended surfaces, furthest first.
     PassStatistics drawBlended(const ColorPass& pass);
-    /// One light's factor on everything opaque.
-    void drawFactor(const ColorPass& pass, int lightIndex);
+    /// The first light's factor on everything opaque.
+    void drawFactor(const ColorPass& pass);
 
     Drawn drawCasters(const math::mat4& clipFromOrigin,
                       std::span<const math::Plane> sidesWorld) override;
@@ -65,6 +67,7 @@ private:
     void flush(std::span<const BatchState> states, const std::function<void(const BatchState&)>& use,
                bool positionsOnly);
     void setFaces(const BatchState& state);
+    void useSurface(const BatchState& state, const ColorPass& pass);
     void drawForeign(const BatchState& state, const std::vector<Item>& items, const ColorPass& pass);
 
     struct InstanceGpu {

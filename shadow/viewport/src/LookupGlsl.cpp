@@ -38,25 +38,31 @@ float filteredShadow(uint map, vec3 q);
 
 // How much of a light reaches a surface: 1 all, 0 nothing. The first of its maps that holds the
 // place decides; outside all of them it is lit.
-//   maps      first map and number of maps
+//   first     the light's first map: MAPS_PER_LIGHT times its index. A constant where the call is
+//             unrolled, so that the map's data is read once for all pixels, not for each.
+//   count     how many maps it has
 //   position  relative to the group's origin
 //   normal    of the surface, unit, on the side that is seen
 //   nDotL     cosine to the light, > 0
-float shadowFactor(uvec2 maps, vec3 position, vec3 normal, float nDotL) {
+float shadowFactor(int first, int count, vec3 position, vec3 normal, float nDotL) {
     float sine = sqrt(max(1.0 - nDotL * nDotL, 0.0));
-    for (uint map = maps.x; map < maps.x + maps.y; ++map) {
+    float factor = 1.0;
+    bool found = false;
+    for (int k = 0; k < MAPS_PER_LIGHT; ++k) {
+        uint map = uint(first + k);
         mat4 m = shadowMaps[map].clipFromOrigin;
         vec4 texelInfo = shadowMaps[map].texel;
         float w = m[0].w * position.x + m[1].w * position.y + m[2].w * position.z + m[3].w;
-        if (w <= 0.0) continue;
         float offset = texelInfo.x * w * (0.05 + 1.4142 * texelInfo.y * sine);
         vec4 clip = m * vec4(position + normal * offset, 1.0);
         vec3 q = clip.xyz / clip.w;
         q.xy = q.xy * 0.5 + 0.5;
-        if (all(greaterThanEqual(q.xy, vec2(0.0))) && all(lessThanEqual(q.xy, vec2(1.0))))
-            return filteredShadow(map, q);
+        bool inside = k < count && w > 0.0 && all(greaterThanEqual(q.xy, vec2(0.0))) &&
+                      all(lessThanEqual(q.xy, vec2(1.0)));
+        if (inside && !found) factor = filteredShadow(map, q);
+        found = found || inside;
     }
-    return 1.0;
+    return factor;
 }
 )glsl";
 }

@@ -243,9 +243,6 @@ ShadowStatistics ShadowMaps::prepare(std::span<const scene::ShadowState* const> 
     }
     if (framed) gl_.Disable(GL_DEPTH_CLAMP);
     if (!blocks_.empty()) {
-        gl_.NamedBufferSubData(mapsBuffer_.id(), 0,
-                               static_cast<GLsizeiptr>(blocks_.size() * sizeof(MapBlock)),
-                               blocks_.data());
         gl_.NamedBufferSubData(tableBuffer_.id(), 0,
                                static_cast<GLsizeiptr>(table_.size() * sizeof(std::uint32_t)),
                                table_.data());
@@ -255,16 +252,34 @@ ShadowStatistics ShadowMaps::prepare(std::span<const scene::ShadowState* const> 
     return done;
 }
 
-void ShadowMaps::bind() const {
+std::uint32_t ShadowMaps::count(field::Id light) const {
+    const auto found = ranges_.find(light);
+    return found == ranges_.end() ? 0U : found->second.count;
+}
+
+int ShadowMaps::arrange(std::span<const field::Id> lights) {
+    std::uint32_t most = 0;
+    std::size_t last = 0;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        most = std::max(most, count(lights[i]));
+        if (count(lights[i]) > 0) last = i + 1;
+    }
+    if (most == 0) return 0;
+    arranged_.assign(std::min<std::size_t>(last * most, maxMaps), MapBlock{});
+    for (std::size_t i = 0; i < last; ++i) {
+        const auto found = ranges_.find(lights[i]);
+        if (found == ranges_.end() || (i + 1) * most > arranged_.size()) continue;
+        std::copy_n(blocks_.begin() + found->second.first, found->second.count,
+                    arranged_.begin() + static_cast<std::ptrdiff_t>(i * most));
+    }
+    gl_.NamedBufferSubData(mapsBuffer_.id(), 0,
+                           static_cast<GLsizeiptr>(arranged_.size() * sizeof(MapBlock)),
+                           arranged_.data());
     gl_.BindBufferBase(GL_UNIFORM_BUFFER, mapsBinding, mapsBuffer_.id());
     gl_.BindBufferBase(GL_UNIFORM_BUFFER, tableBinding, tableBuffer_.id());
     gl_.BindTextureUnit(pagesUnit, bound_ == nullptr ? 0 : bound_->texture());
     gl_.BindSampler(pagesUnit, compare_.id());
-}
-
-ShadowMaps::Range ShadowMaps::range(field::Id light) const {
-    const auto found = ranges_.find(light);
-    return found == ranges_.end() ? Range{} : found->second;
+    return static_cast<int>(most);
 }
 
 }  // namespace gnomon::shadow

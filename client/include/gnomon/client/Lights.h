@@ -35,8 +35,8 @@ using LightOption = std::variant<Sun, Spot, Point>;
 /// point lights do not get darker with distance.
 struct Brightness {
     math::vec3 color{1.0F};
-    float intensity = 0.9F;
-    math::vec3 ambient{0.15F};
+    float intensity = 0.85F;
+    math::vec3 ambient{0.12F};
 };
 
 /// Adds a light above the tree's content. Returns the node whose core is the light.

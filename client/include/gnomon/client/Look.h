@@ -9,7 +9,8 @@ struct Look {
     math::dvec3 eye{0.0, 0.0, 5.0};
     math::dvec3 center{0.0};
     math::dvec3 up{0.0, 1.0, 0.0};
-    double scale = 1.0;  ///< metres of the world to a metre of the room; of no meaning without a room
+    double scale =
+        1.0;  ///< metres of the world to a metre of the room; of no meaning without a room
     friend bool operator==(const Look&, const Look&) = default;
 };
 

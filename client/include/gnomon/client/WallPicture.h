@@ -16,7 +16,7 @@ namespace gnomon::client {
 struct WallPicture {
     std::string screen = {};
     config::Eye eye = config::Eye::mono;
-    image::Image image = {};            ///< RGB, the pixels of the screen's canvas
+    image::Image image = {};                ///< RGB, the pixels of the screen's canvas
     std::vector<std::string> missing = {};  ///< servers whose tile is not there
 };
 

@@ -16,7 +16,7 @@ namespace gnomon::client {
 struct WallContainers {
     field::Ref<scene::User> user = {};
     field::Ref<scene::Navigation> navigation = {};
-    field::Ref<scene::PerspectiveCamera> lens = {};  ///< near and far of all viewports
+    field::Ref<scene::PerspectiveCamera> lens = {};       ///< near and far of all viewports
     std::vector<field::Ref<scene::Screen>> screens = {};  ///< in the order of the config
     std::vector<field::Ref<scene::Window>> windows = {};  ///< in the order of the config
     std::vector<field::Ref<scene::ShadowViewport>> viewports = {};

@@ -43,28 +43,29 @@ SceneBuilder::SceneBuilder(const field::TypeRegistry& types, Report& report)
     e->core = *group_;
 }
 
-const Node& SceneBuilder::addTransform(const Node& parent, std::string name,
+const Node& SceneBuilder::addTransform(const Node& parent, std::string_view name,
                                        const math::Affine& parentFromNode) {
-    const auto made = scene::makeNode<scene::Transform>(aspect_, std::move(name));
+    const auto made = scene::makeNode<scene::Transform>(aspect_, printable(name));
     edit(made.core)->matrix = parentFromNode;
     edit(parent)->addChild(made.node);
     return made.node;
 }
 
-const Node& SceneBuilder::addGroup(const Node& parent, std::string name) {
+const Node& SceneBuilder::addGroup(const Node& parent, std::string_view name) {
     const auto& node = aspect_.create<Node>();
     {
         auto e = edit(node);
-        e->name = std::move(name);
+        e->name = printable(name);
         e->core = *group_;
     }
     edit(parent)->addChild(node);
     return node;
 }
 
-void SceneBuilder::addShape(const Node& parent, const std::string& name,
+void SceneBuilder::addShape(const Node& parent, std::string_view given,
                             const scene::Geometry& geometry, const scene::Material& material,
                             const math::dmat4& worldFromParent) {
+    const auto name = printable(given);
     const math::Box local{.min = math::dvec3{geometry.boundsMin.get()},
                           .max = math::dvec3{geometry.boundsMax.get()}};
     const math::Box world = math::transformed(local, worldFromParent);
@@ -72,8 +73,7 @@ void SceneBuilder::addShape(const Node& parent, const std::string& name,
         return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
     };
     if (!math::isFinite(worldFromParent) || !finite(world.min) || !finite(world.max)) {
-        report_.warn(fmt::format("\"{}\": its place in the world is not finite; left out",
-                                 printable(name)));
+        report_.warn(fmt::format("\"{}\": its place in the world is not finite; left out", name));
         return;
     }
     auto& group = materialGroups_[material.id()];
@@ -129,13 +129,13 @@ const Node& SceneBuilder::addLights(const Node& root, std::vector<const Node*>& 
             e->range = static_cast<float>(draft.range > 0.0 ? draft.range : derivedRange(intensity));
         };
         if (draft.kind == LightDraft::Kind::directional) {
-            add(scene::makeNode<scene::DirectionalLight>(aspect_, draft.name));
+            add(scene::makeNode<scene::DirectionalLight>(aspect_, printable(draft.name)));
         } else if (draft.kind == LightDraft::Kind::point) {
-            const auto light = scene::makeNode<scene::PointLight>(aspect_, draft.name);
+            const auto light = scene::makeNode<scene::PointLight>(aspect_, printable(draft.name));
             add(light);
             addLocal(light);
         } else {
-            const auto light = scene::makeNode<scene::SpotLight>(aspect_, draft.name);
+            const auto light = scene::makeNode<scene::SpotLight>(aspect_, printable(draft.name));
             add(light);
             addLocal(light);
             const auto e = edit(light.core);
@@ -172,7 +172,7 @@ field::ChangeList SceneBuilder::finish(const std::string& source) {
     const auto& root = aspect_.create<Node>();
     {
         auto e = edit(root);
-        e->name = source;
+        e->name = printable(source);
         e->core = *group_;
     }
     std::vector<const Node*> lights;
@@ -182,7 +182,7 @@ field::ChangeList SceneBuilder::finish(const std::string& source) {
     const auto& imported = aspect_.create<scene::ImportedScene>();
     {
         auto e = edit(imported);
-        e->source = source;
+        e->source = printable(source);
         e->root = root;
         e->animations.assign(refs(animations_));
         e->poses.assign(refs(poses_));

@@ -43,12 +43,13 @@ public:
     /// What readers hang their nodes under: below all lights.
     const scene::Node& content() const noexcept { return *content_; }
 
-    const scene::Node& addTransform(const scene::Node& parent, std::string name,
+    /// Names are a file's own: they are made printable here.
+    const scene::Node& addTransform(const scene::Node& parent, std::string_view name,
                                     const math::Affine& parentFromNode);
-    const scene::Node& addGroup(const scene::Node& parent, std::string name);
+    const scene::Node& addGroup(const scene::Node& parent, std::string_view name);
     /// A material and a geometry below it. Cores are shared: the same material gets the same
     /// MaterialGroup at each use. @p worldFromParent is for the bounds.
-    void addShape(const scene::Node& parent, const std::string& name, const scene::Geometry& geometry,
+    void addShape(const scene::Node& parent, std::string_view given, const scene::Geometry& geometry,
                   const scene::Material& material, const math::dmat4& worldFromParent);
     void addLight(LightDraft light) { lights_.push_back(std::move(light)); }
     void addCamera(const CameraDraft& camera) { cameras_.push_back(camera); }

@@ -67,7 +67,7 @@ void AnimationReader::read(const JsonView& json) {
     const auto& animation = to_.aspect().create<scene::Animation>();
     {
         auto e = edit(animation);
-        e->name = json.string("name", json.where());
+        e->name = printable(json.string("name", json.where()));
         e->duration = duration;
         e->channels.assign(std::move(channels));
     }

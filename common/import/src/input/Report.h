@@ -19,8 +19,8 @@ namespace gnomon::importer {
     throw Failure{Errc::limit, std::move(what)};
 }
 
-/// Text of a file's own making (names, URIs) in a form fit for one line: control characters become
-/// '?', and what is long is cut.
+/// Text of a file's own making (names, URIs) in a form fit for one line: control characters and
+/// bytes that are no UTF-8 become '?', and what is long is cut.
 std::string printable(std::string_view text, std::size_t longest = 120);
 
 /// What an import tells besides its result: warnings, and how far it is.

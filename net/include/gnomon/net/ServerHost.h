@@ -26,9 +26,9 @@ struct ServerOptions {
 
 /// The server's end: takes one client at a time and hands its frames to the main thread.
 ///
-/// One Asio thread of its own holds the sockets, puts payloads together and answers Ping; only
-/// immutable messages cross. All functions but quit() and port() belong to one thread, the one
-/// that calls next().
+/// next() works on the sockets while it waits; a thread of its own takes over, answers Ping and
+/// puts payloads together, while the main thread is busy elsewhere for more than 20 ms. All
+/// functions but quit() and port() belong to one thread, the one that calls next().
 class ServerHost {
 public:
     /// Listens at once.
@@ -49,7 +49,9 @@ public:
     Queued peek() const;
 
     // Each is dropped silently when the client is gone.
-    void send(Ready ready);  ///< counts the images sent for this frame, so send them before
+    /// Once for the snapshot and for each frame that is rendered. Counts the images sent for this
+    /// frame, so send them before.
+    void send(Ready ready);
     void send(const Digest& digest);
     void send(const Depth& depth);
     void send(const InputEvent& event);

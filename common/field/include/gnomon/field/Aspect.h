@@ -127,6 +127,7 @@ private:
                                std::vector<FieldContainer*>& going, bool own);
     void drop(FieldContainer& container, std::vector<Id>* orphans);
     void erase(FieldContainer& container);
+    void listCreated(FieldContainer& container);
 
     const TypeRegistry& types_;
     const std::uint16_t space_;
@@ -136,8 +137,9 @@ private:
     PayloadStore payloads_;
     std::vector<Hash128> unusedPayloads_;
 
-    std::vector<Id> created_;  // since the last commit
-    std::vector<Id> changed_;  // pending_ != 0
+    // Since the last commit; nullptr where a container was destroyed again.
+    std::vector<FieldContainer*> created_;
+    std::vector<FieldContainer*> changed_;  // pending_ != 0
     std::vector<Id> destroyed_;
     Writer writer_;
     UseLog log_;

@@ -56,6 +56,7 @@ private:
     std::uint64_t digest_ = 0;
     std::uint32_t references_ = 0;
     Mask pending_ = 0;          // changed since the last commit
+    std::uint32_t slot_ = 0;    // where the aspect lists it as created or changed
     bool uncommitted_ = false;  // created since the last commit
     bool digestStale_ = false;
     bool dropped_ = false;  // about to be destroyed: its references no longer count

@@ -66,15 +66,13 @@ public:
     ShadowStatistics prepare(std::span<const scene::ShadowState* const> states,
                              const math::View& view, const math::Box& bounds,
                              CasterSource& casters);
-    /// Binds maps, table and pages for the lookup. After prepare().
-    void bind() const;
-
-    /// Where a light's maps stand after prepare(); count 0: it has none.
-    struct Range {
-        std::uint32_t first = 0;
-        std::uint32_t count = 0;
-    };
-    Range range(field::Id light) const;
+    /// Puts the maps in the order of the lights that are shaded and binds maps, table and pages for
+    /// the lookup. After prepare().
+    /// @param lights  nodes; the maps of the i-th begin at i * maps per light
+    /// @return maps per light, 0 where no light has any: MAPS_PER_LIGHT for the lookup's text.
+    int arrange(std::span<const field::Id> lights);
+    /// How many maps a light has, after prepare().
+    std::uint32_t count(field::Id light) const;
 
 private:
     class Pool;
@@ -102,12 +100,16 @@ private:
     const gl::Api& gl_;
     std::map<int, std::unique_ptr<Pool>> pools_;
     std::map<PageKey, Page> pages_;
-    std::map<field::Id, Range> ranges_;
+    struct Range {
+        std::uint32_t first = 0, count = 0;
+    };
+    std::map<field::Id, Range> ranges_;  ///< in blocks_, by light
     gl::Buffer mapsBuffer_;
     gl::Buffer tableBuffer_;
     gl::Framebuffer framebuffer_;
     gl::Sampler compare_;
     std::vector<MapBlock> blocks_;
+    std::vector<MapBlock> arranged_;
     std::vector<std::uint32_t> table_;
     Pool* bound_ = nullptr;
     std::uint64_t round_ = 0;

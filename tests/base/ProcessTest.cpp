@@ -1,0 +1,100 @@
+#include <gnomon/base/Process.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <filesystem>
+#include <string>
+
+namespace gnomon {
+namespace {
+
+using std::chrono::steady_clock;
+
+std::string readAll(int file) {
+    std::string text;
+    std::array<char, 256> buffer{};
+    for (;;) {
+        const auto count = ::read(file, buffer.data(), buffer.size());
+        if (count <= 0) return text;
+        text.append(buffer.data(), static_cast<std::size_t>(count));
+    }
+}
+
+Result<Child> shell(const std::string& script, ChildOptions options = {}) {
+    options.arguments = {"/bin/sh", "-c", script};
+    return Child::start(options);
+}
+
+steady_clock::time_point soon() { return steady_clock::now() + std::chrono::seconds{30}; }
+
+TEST(Process, ItsOutputAndExitCodeCanBeRead) {
+    auto child = shell("echo out; echo err >&2; exit 3");
+    ASSERT_TRUE(child.has_value()) << child.error().text();
+    EXPECT_EQ(readAll(child->output()), "out\n");
+    EXPECT_EQ(readAll(child->errors()), "err\n");
+    const int status = child->wait(soon());
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 3);
+    EXPECT_EQ(describeStatus(status), "exit code 3");
+    EXPECT_EQ(child->ended(), status);
+}
+
+TEST(Process, TheEnvironmentIsAddedToOurs) {
+    auto child = shell("echo \"$GNOMON_PROBE,${PATH:+has path}\"",
+                       {.environment = {"GNOMON_PROBE=there"}});
+    ASSERT_TRUE(child.has_value());
+    EXPECT_EQ(readAll(child->output()), "there,has path\n");
+}
+
+TEST(Process, AProgramThatIsNotThereFails) {
+    auto child = Child::start({.arguments = {"/no/such/program"}});
+    ASSERT_FALSE(child.has_value());
+    EXPECT_EQ(child.error().code, Errc::process);
+    EXPECT_NE(child.error().text().find("/no/such/program"), std::string::npos);
+}
+
+TEST(Process, IsKilledAtTheDeadlineAndWhenDropped) {
+    auto child = shell("exec cat");  // its input stays open or not; either way we decide
+    auto endless = shell("while :; do :; done");
+    ASSERT_TRUE(child.has_value() && endless.has_value());
+    EXPECT_FALSE(endless->ended().has_value());
+    const int status = endless->wait(steady_clock::now() + std::chrono::milliseconds{50});
+    ASSERT_TRUE(WIFSIGNALED(status));
+    EXPECT_NE(describeStatus(status).find("signal"), std::string::npos);
+
+    pid_t pid = 0;
+    {
+        auto dropped = shell("while :; do :; done");
+        ASSERT_TRUE(dropped.has_value());
+        pid = dropped->pid();
+        EXPECT_EQ(::kill(pid, 0), 0);
+    }
+    EXPECT_EQ(::kill(pid, 0), -1) << "it was killed and waited for";
+}
+
+TEST(Process, AMemoryLimitHolds) {
+    // One block of 256 MiB cannot be had in 64.
+    auto child = shell("head -c 268435456 /dev/zero | tail -c 268435456 | wc -c",
+                       {.memoryLimit = 64ULL << 20U});
+    ASSERT_TRUE(child.has_value());
+    EXPECT_NE(readAll(child->output()), "268435456\n");
+    child->wait(soon());
+}
+
+TEST(Process, MovesItsOwnership) {
+    auto child = shell("exit 0");
+    ASSERT_TRUE(child.has_value());
+    Child moved = *std::move(child);
+    EXPECT_GT(moved.pid(), 0);
+    EXPECT_EQ(describeStatus(moved.wait(soon())), "exit code 0");
+}
+
+TEST(Process, TheProgramFolderHoldsThisTest) {
+    EXPECT_TRUE(std::filesystem::exists(programFolder() / "BaseTest"));
+}
+
+}  // namespace
+}  // namespace gnomon
