@@ -124,7 +124,7 @@ Result<void> HostCore::greeted(Channel& from, std::span<const std::byte> body) {
 
 void HostCore::beginSession(std::shared_ptr<Channel> channel, wire::ClientHello hello) {
     channel->setRoute(Route::toServerControl);
-    session_.emplace();
+    session_ = std::make_unique<Session>();
     session_->id = ++sessionCount_;
     session_->token = hello.token;
     session_->sync = hello.sync;
@@ -249,16 +249,15 @@ void HostCore::endSession(const Error& why, bool tellClient) {
     bulkTimer_.cancel();
     silentTimer_.cancel();
     // Dropped first: closing a channel may call back.
-    Session ended = std::move(*session_);
-    session_.reset();
-    if (ended.bulk) ended.bulk->close();
-    if (tellClient && ended.control->isOpen())
-        refuse(ended.control, why.text());
+    const auto ended = std::move(session_);
+    if (ended->bulk) ended->bulk->close();
+    if (tellClient && ended->control->isOpen())
+        refuse(ended->control, why.text());
     else
-        ended.control->close();
+        ended->control->close();
     inbox_.dropSession();
     inbox_.setThrottled(false);
-    if (!ended.joined) return;
+    if (!ended->joined) return;
     inbox_.push(ServerEvent{ClientLeft{.why = why.text()}}, 0);
     if (options_.exitWithClient) inbox_.push(ServerEvent{Quit{}}, 0);
 }

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <list>
 #include <memory>
-#include <optional>
 
 #include "BulkSender.h"
 #include "Channel.h"
@@ -81,7 +80,7 @@ private:
     Inbox& inbox_;
     const Progress& progress_;
     std::list<Guest> guests_;
-    std::optional<Session> session_;
+    std::unique_ptr<Session> session_;
     std::uint64_t sessionCount_ = 0;
     Timer acceptTimer_, bulkTimer_, silentTimer_;
 };

@@ -1,0 +1,271 @@
+// One ShadowState per light and screen, as the session keeps them while an application edits.
+#include <gnomon/scene/CameraView.h>
+#include <gnomon/scene/Types.h>
+#include <gnomon/shadow_fit/ShadowFitter.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace gnomon::shadow_fit {
+namespace {
+
+using namespace scene;
+
+field::TypeRegistry sceneTypes() {
+    field::TypeRegistry types;
+    addTypes(types);
+    return types;
+}
+
+/// An application's aspect, the session's, and a server's: a wall of two tiles in stereo.
+class ShadowFitterTest : public testing::Test {
+protected:
+    ShadowFitterTest() {
+        edit(root)->addChild(sun.node);
+        const auto box = makeNode<Geometry>(app, "box");
+        {
+            auto e = edit(box.core);
+            e->chunks.assign({Chunk{.indexCount = 3}});
+            e->boundsMin = math::vec3{-2.0F, 0.0F, -6.0F};
+            e->boundsMax = math::vec3{2.0F, 2.0F, -2.0F};
+        }
+        edit(sun.node)->addChild(box.node);
+        edit(sun.core)->beacon = beacon.node;
+        aim({1.0, -2.0, -0.5});
+        {
+            auto e = edit(screen);
+            e->lowerLeft = math::dvec3{-2.0, 0.0, -1.0};
+            e->lowerRight = math::dvec3{2.0, 0.0, -1.0};
+            e->upperLeft = math::dvec3{-2.0, 2.0, -1.0};
+        }
+        edit(user)->roomFromHead = math::Affine{.translation = {0.0, 1.2, 1.0}};
+        for (const Eye eye : {Eye::left, Eye::right})
+            for (int column = 0; column < 2; ++column) addTile(eye, column);
+    }
+
+    void aim(const math::dvec3& direction) {
+        const math::dmat4 look = math::lookAt({0.0, 0.0, 0.0}, direction, {0.0, 1.0, 0.0});
+        edit(beacon.core)->matrix = math::toAffine(glm::inverse(look));
+    }
+    void addTile(Eye eye, int column) {
+        const auto& decorator = app.create<ScreenDecorator>();
+        {
+            auto e = edit(decorator);
+            e->decoratee = lens;
+            e->screen = screen;
+            e->user = user;
+            e->eye = eye;
+        }
+        const auto& tile = app.create<TileDecorator>();
+        {
+            auto e = edit(tile);
+            e->decoratee = decorator;
+            e->part = math::Rect{.left = column * 0.5, .width = 0.5};
+        }
+        const auto& viewport = app.create<ShadowViewport>();
+        {
+            auto e = edit(viewport);
+            e->camera = tile;
+            e->root = root;
+            e->technique = "std";
+        }
+        const auto& window = app.create<Window>();
+        edit(window)->viewports.assign({Ref<Viewport>{viewport}});
+        viewports.push_back(&viewport);
+        windows.push_back(&window);
+    }
+    /// A frame: the application's changes to everybody, then the fits to the server.
+    field::ChangeList frame() {
+        const auto list = app.commit();
+        field::Applied applied;
+        expectApplied(session.apply(list, &applied));
+        expectApplied(server.apply(list));
+        fitter.update(session, applied);
+        auto fits = session.commit();
+        expectApplied(server.apply(fits));
+        EXPECT_EQ(session.digest(), server.digest());
+        return fits;
+    }
+    static void expectApplied(const Result<void>& result) {
+        EXPECT_TRUE(result.has_value()) << (result ? "" : result.error().text());
+    }
+    std::vector<const ShadowState*> states() const {
+        std::vector<const ShadowState*> found;
+        server.forEach([&](const field::FieldContainer& c) {
+            if (const auto* state = dynamic_cast<const ShadowState*>(&c)) found.push_back(state);
+        });
+        return found;
+    }
+    const ShadowState& onlyState() const {
+        const auto found = states();
+        EXPECT_EQ(found.size(), 1U);
+        static const ShadowState none;
+        return found.size() == 1 ? *found[0] : none;
+    }
+
+    field::TypeRegistry types = sceneTypes();
+    field::Aspect app{types, 1};
+    field::Aspect session{types, 2};
+    field::Aspect server{types, 0};
+    std::vector<std::string> warnings;
+    ShadowFitter fitter{[this](std::string text) { warnings.push_back(std::move(text)); }};
+
+    const Node& root = app.create<Node>();
+    const NodeWith<DirectionalLight> sun = makeNode<DirectionalLight>(app, "sun");
+    const NodeWith<Transform> beacon = makeNode<Transform>(app, "beacon");
+    const Screen& screen = app.create<Screen>();
+    const User& user = app.create<User>();
+    const PerspectiveCamera& lens = app.create<PerspectiveCamera>();
+    std::vector<const ShadowViewport*> viewports;
+    std::vector<const Window*> windows;
+};
+
+TEST_F(ShadowFitterTest, AllTilesAndBothEyesOfAScreenShareOneState) {
+    frame();
+    const ShadowState& state = onlyState();
+    EXPECT_EQ(state.light->id, sun.node.id());
+    EXPECT_EQ(state.group->id, screen.id());
+    EXPECT_EQ(state.filter.get(), "hard");
+    EXPECT_FALSE(state.degenerate);
+    ASSERT_EQ(state.clipFromWorld.size(), 1U);
+
+    // Fitted to both eyes' whole views, as one does by hand.
+    std::vector<math::View> views;
+    for (const std::size_t i : {0U, 2U}) {
+        const auto view = cameraView(session, viewports[i]->camera, 1.0);
+        ASSERT_TRUE(view.has_value());
+        views.push_back(view->whole);
+    }
+    FlatScene flat{session};
+    flat.update(Ref<Node>{root.id()}, {}, {});
+    const auto expected = fits()[0].fit({.light = lightShape(flat.lights()[0]),
+                                         .views = views,
+                                         .scene = flat.bounds(),
+                                         .mapSize = 512});
+    ASSERT_EQ(expected.maps.size(), 1U);
+    const math::dmat4& found = state.clipFromWorld[0];
+    if (fits()[0].name == "std") EXPECT_EQ(found, expected.maps[0].clipFromWorld);
+    // What the first tile sees does not choose: without it the state is the same.
+    const math::dmat4 before = found;
+    edit(*windows[0])->viewports.clear();
+    frame();
+    EXPECT_EQ(onlyState().clipFromWorld[0], before);
+}
+
+TEST_F(ShadowFitterTest, NothingIsEditedWhenNothingChanged) {
+    EXPECT_FALSE(frame().empty());
+    EXPECT_TRUE(frame().empty());
+    edit(*windows[0])->title = "no fit depends on this";
+    EXPECT_TRUE(frame().empty());
+}
+
+TEST_F(ShadowFitterTest, AMovedLightChangesItsMapsAlone) {
+    frame();
+    const field::Id id = onlyState().id();
+    const math::dmat4 before = onlyState().clipFromWorld[0];
+    aim({-1.0, -2.0, 0.5});
+    const auto list = app.commit();
+    field::Applied applied;
+    expectApplied(session.apply(list, &applied));
+    fitter.update(session, applied);
+    applied.clear();
+    expectApplied(server.apply(list));
+    expectApplied(server.apply(session.commit(), &applied));
+    ASSERT_EQ(applied.changed.size(), 1U);
+    EXPECT_EQ(applied.changed[0].mask, field::maskOf<ShadowState>("clipFromWorld"));
+    EXPECT_EQ(onlyState().id(), id);
+    EXPECT_NE(onlyState().clipFromWorld[0], before);
+}
+
+TEST_F(ShadowFitterTest, ALightThatIsDestroyedTakesItsStateAlong) {
+    frame();
+    ASSERT_EQ(states().size(), 1U);
+    // All in one frame: the scene is taken down while a state speaks of its light.
+    edit(root)->removeChild(sun.node);
+    const auto gone = app.destroyTree(sun.node);
+    ASSERT_TRUE(gone.has_value()) << gone.error().text();
+    frame();
+    EXPECT_TRUE(states().empty());
+}
+
+TEST_F(ShadowFitterTest, AScreenThatIsDestroyedTakesItsStatesAlong) {
+    frame();
+    for (const Window* window : windows) {
+        edit(*window)->viewports.clear();
+        ASSERT_TRUE(app.destroy(*window).has_value());
+    }
+    for (const ShadowViewport* viewport : viewports) ASSERT_TRUE(app.destroyTree(*viewport));
+    EXPECT_EQ(app.find(screen.id()), nullptr) << "nothing else kept it";
+    frame();
+    EXPECT_TRUE(states().empty());
+}
+
+TEST_F(ShadowFitterTest, StatesGoWithWhatAskedForThem) {
+    frame();
+    edit(sun.core)->on = false;
+    frame();
+    EXPECT_TRUE(states().empty());
+    edit(sun.core)->on = true;
+    frame();
+    EXPECT_EQ(states().size(), 1U);
+    edit(sun.core)->castsShadow = false;
+    frame();
+    EXPECT_TRUE(states().empty());
+    edit(sun.core)->castsShadow = true;
+    for (const ShadowViewport* viewport : viewports) edit(*viewport)->shadowOn = false;
+    frame();
+    EXPECT_TRUE(states().empty());
+    for (const ShadowViewport* viewport : viewports) edit(*viewport)->shadowOn = true;
+    frame();
+    EXPECT_EQ(states().size(), 1U);
+    for (const ShadowViewport* viewport : viewports) edit(*viewport)->technique = "none";
+    frame();
+    EXPECT_TRUE(states().empty());
+}
+
+TEST_F(ShadowFitterTest, MapsAreWholePages) {
+    struct Case {
+        int asked, map, page;
+    };
+    for (const Case& c : {Case{512, 512, 512}, Case{2048, 2048, 1024}, Case{1500, 2048, 1024},
+                          Case{100, 100, 100}, Case{-5, 16, 16}, Case{1 << 20, 16384, 1024}}) {
+        for (const ShadowViewport* viewport : viewports) edit(*viewport)->mapSize = c.asked;
+        frame();
+        EXPECT_EQ(onlyState().mapSize, c.map) << c.asked;
+        EXPECT_EQ(onlyState().pageSize, c.page) << c.asked;
+    }
+}
+
+TEST_F(ShadowFitterTest, WhatCannotBeDoneIsToldOnce) {
+    for (const ShadowViewport* viewport : viewports) edit(*viewport)->technique = "nonsense";
+    frame();
+    aim({0.1, -1.0, 0.0});
+    frame();
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_NE(warnings[0].find("\"nonsense\""), std::string::npos) << warnings[0];
+    EXPECT_TRUE(states().empty());
+}
+
+TEST_F(ShadowFitterTest, APlaceThatIsNotFiniteIsMarkedAndHasNoMaps) {
+    edit(beacon.core)->matrix = math::Affine{.translation = math::dvec3{std::nan("")},
+                                             .linear = math::mat3{std::nanf("")}};
+    frame();
+    for (const ShadowState* state : states())
+        for (const math::dmat4& map : state->clipFromWorld) EXPECT_TRUE(math::isFinite(map));
+}
+
+TEST_F(ShadowFitterTest, ChosenLightsAlone) {
+    const auto second = makeNode<SpotLight>(app, "lamp");
+    edit(sun.node)->addChild(second.node);
+    edit(second.core)->beacon = beacon.node;
+    frame();
+    EXPECT_EQ(states().size(), 2U);
+    for (const ShadowViewport* viewport : viewports)
+        edit(*viewport)->lightNodes.assign({Ref<Node>{second.node}});
+    frame();
+    EXPECT_EQ(onlyState().light->id, second.node.id());
+}
+
+}  // namespace
+}  // namespace gnomon::shadow_fit
