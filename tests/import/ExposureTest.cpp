@@ -1,9 +1,8 @@
-#include "build/Exposure.h"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 
+#include "build/Exposure.h"
 #include "build/Phong.h"
 #include "build/SceneBuilder.h"
 
@@ -42,7 +41,8 @@ TEST(Exposure, IsOneWithoutLightAndFiniteForSillyNumbers) {
     EXPECT_EQ(exposure({}, {}, unitBox), 1.0);
     const LightDraft dark[] = {{.intensity = 0.0}};
     EXPECT_EQ(exposure(dark, {}, unitBox), 1.0);
-    const LightDraft faint[] = {{.kind = Kind::directional, .intensity = std::numeric_limits<double>::denorm_min()}};
+    const LightDraft faint[] = {
+        {.kind = Kind::directional, .intensity = std::numeric_limits<double>::denorm_min()}};
     EXPECT_TRUE(std::isfinite(exposure(faint, {}, unitBox)));
     const math::Box point{.min = math::dvec3{0.0}, .max = math::dvec3{0.0}};
     const LightDraft lamp[] = {{.intensity = 5.0}};

@@ -22,22 +22,28 @@ GltfWriter withCube() {
 TEST(Gltf, KeepsTheHierarchyAndComposesTransforms) {
     auto writer = withCube();
     writer.node({{"name", "child"}, {"mesh", 0}, {"scale", {2, 2, 2}}});
-    writer.node({{"name", "parent"}, {"children", {0}}, {"translation", {10, 0, 0}},
+    writer.node({{"name", "parent"},
+                 {"children", {0}},
+                 {"translation", {10, 0, 0}},
                  {"rotation", {0, 0, std::sqrt(0.5), std::sqrt(0.5)}}});
-    for (const auto& [name, content] : {std::pair{"a.glb", writer.glb()}, std::pair{"a.gltf", writer.gltf()}}) {
+    for (const auto& [name, content] :
+         {std::pair{"a.glb", writer.glb()}, std::pair{"a.gltf", writer.gltf()}}) {
         const Model model{name, content};
         EXPECT_EQ(model.imported().trianglesDrawn, 12U);
         EXPECT_EQ(model.node("child").parent().id, model.node("parent").id());
         // The unit cube, doubled, turned a quarter to the left, moved.
-        EXPECT_NEAR(glm::length(model.imported().boundsMin.get() - math::dvec3{8, 0, 0}), 0.0, 1e-6);
-        EXPECT_NEAR(glm::length(model.imported().boundsMax.get() - math::dvec3{10, 2, 2}), 0.0, 1e-6);
+        EXPECT_NEAR(glm::length(model.imported().boundsMin.get() - math::dvec3{8, 0, 0}), 0.0,
+                    1e-6);
+        EXPECT_NEAR(glm::length(model.imported().boundsMax.get() - math::dvec3{10, 2, 2}), 0.0,
+                    1e-6);
         EXPECT_TRUE(model.warnings().empty());
     }
 }
 
 TEST(Gltf, TakesAMatrixColumnByColumn) {
     auto writer = withCube();
-    writer.node({{"name", "n"}, {"mesh", 0}, {"matrix", {2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 4, 0, 5, 6, 7, 1}}});
+    writer.node(
+        {{"name", "n"}, {"mesh", 0}, {"matrix", {2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 4, 0, 5, 6, 7, 1}}});
     const Model model{"a.glb", writer.glb()};
     const auto& m = model.core<scene::Transform>(model.node("n")).matrix.get();
     EXPECT_EQ(m.translation, (math::dvec3{5, 6, 7}));
@@ -88,7 +94,8 @@ TEST(Gltf, ReadsAllModes) {
     }
     const Model model{"a.glb", writer.glb()};
     const auto indices = [&](int mode) {
-        const auto& holder = *model.aspect().get(model.node("node " + std::to_string(mode)).children()[0]);
+        const auto& holder =
+            *model.aspect().get(model.node("node " + std::to_string(mode)).children()[0]);
         const auto& shape = *model.aspect().get(holder.children()[0]);
         const auto& g = model.core<scene::Geometry>(shape);
         EXPECT_EQ(faultsOf(g), "");
@@ -107,7 +114,8 @@ TEST(Gltf, ReadsAllModes) {
 TEST(Gltf, TurnsAllTrianglesOfAStripTheSameWay) {
     GltfWriter writer;
     const auto position = writer.positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 2, 0}});
-    writer.json["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", position}}}, {"mode", 5}}}}}};
+    writer.json["meshes"] = {
+        {{"primitives", {{{"attributes", {{"POSITION", position}}}, {"mode", 5}}}}}};
     writer.node({{"mesh", 0}});
     const Model model{"a.glb", writer.glb()};
     const auto& g = *model.all<scene::Geometry>().front();
@@ -134,11 +142,12 @@ TEST(Gltf, ReadsSparseAccessors) {
 
 TEST(Gltf, ReadsNormalizedIntegersAndColors) {
     GltfWriter writer;
-    const auto position = writer.accessor(std::vector<std::int16_t>{0, 0, 0, 0, 32767, 0, 0, 0, 0, 32767, 0, 0},
-                                          5122, "VEC3", 4);
+    const auto position = writer.accessor(
+        std::vector<std::int16_t>{0, 0, 0, 0, 32767, 0, 0, 0, 0, 32767, 0, 0}, 5122, "VEC3", 4);
     writer.json["accessors"][position]["normalized"] = true;
     writer.json["bufferViews"][position]["byteStride"] = 8;
-    const auto color = writer.accessor(std::vector<float>{1, 0, 0, 0, 0.5F, 0, 0, 0, 2}, 5126, "VEC3", 3);
+    const auto color =
+        writer.accessor(std::vector<float>{1, 0, 0, 0, 0.5F, 0, 0, 0, 2}, 5126, "VEC3", 3);
     writer.json["meshes"] = {
         {{"primitives", {{{"attributes", {{"POSITION", position}, {"COLOR_0", color}}}}}}}};
     writer.node({{"mesh", 0}});
@@ -156,11 +165,15 @@ TEST(Gltf, HangsContentBelowItsLights) {
     writer.json["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "directional"}, {"intensity", 4.0}, {"name", "sun"}},
         {{"type", "point"}, {"intensity", 8.0}, {"color", {1, 0.5, 0}}, {"name", "lamp"}},
-        {{"type", "spot"}, {"intensity", 2.0}, {"range", 7.0}, {"name", "torch"},
+        {{"type", "spot"},
+         {"intensity", 2.0},
+         {"range", 7.0},
+         {"name", "torch"},
          {"spot", {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.4}}}}};
     writer.node({{"mesh", 0}, {"name", "box"}});
     for (int i = 0; i < 3; ++i)
-        writer.node({{"translation", {0, 5, i}}, {"name", "holder " + std::to_string(i)},
+        writer.node({{"translation", {0, 5, i}},
+                     {"name", "holder " + std::to_string(i)},
                      {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
     const Model model{"a.glb", writer.glb()};
     ASSERT_EQ(model.imported().lights.size(), 3U);
@@ -200,7 +213,8 @@ TEST(Gltf, ReadsCamerasAndLeavesOutWhatIsNone) {
     writer.json["cameras"] = {
         {{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.5}, {"zfar", 80}}}},
         {{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.5}}}},
-        {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 1}}}},
+        {{"type", "orthographic"},
+         {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 1}}}},
         {{"type", "perspective"}, {"perspective", {{"yfov", 0}, {"znear", 0}, {"zfar", -1}}}}};
     writer.node({{"mesh", 0}});
     for (int i = 0; i < 4; ++i) writer.node({{"camera", i}, {"translation", {0, 0, 1000}}});
@@ -216,8 +230,9 @@ TEST(Gltf, ReadsCamerasAndLeavesOutWhatIsNone) {
 }
 
 json animation(std::size_t input, std::size_t output, const char* path, const char* interpolation) {
-    return {{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", path}}}}}},
-            {"samplers", {{{"input", input}, {"output", output}, {"interpolation", interpolation}}}}};
+    return {
+        {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", path}}}}}},
+        {"samplers", {{{"input", input}, {"output", output}, {"interpolation", interpolation}}}}};
 }
 
 TEST(Gltf, ReadsAnimationsWithTheRestingPose) {
@@ -253,11 +268,14 @@ TEST(Gltf, LeavesOutAnimationChannelsWithFaults) {
     const auto broken = writer.accessor(std::vector<float>{0.0F, nan}, 5126, "SCALAR");
     const auto values = writer.accessor(std::vector<float>(6, 1.0F), 5126, "VEC3", 3);
     const auto badValues = writer.accessor(std::vector<float>(6, nan), 5126, "VEC3", 3);
-    writer.json["animations"] = {
-        animation(falling, values, "translation", "LINEAR"), animation(equal, values, "translation", "LINEAR"),
-        animation(broken, values, "translation", "LINEAR"),  animation(good, badValues, "scale", "LINEAR"),
-        animation(good, values, "rotation", "LINEAR"),       animation(good, values, "sideways", "LINEAR"),
-        animation(good, values, "scale", "CUBICSPLINE"),     animation(999, values, "scale", "LINEAR")};
+    writer.json["animations"] = {animation(falling, values, "translation", "LINEAR"),
+                                 animation(equal, values, "translation", "LINEAR"),
+                                 animation(broken, values, "translation", "LINEAR"),
+                                 animation(good, badValues, "scale", "LINEAR"),
+                                 animation(good, values, "rotation", "LINEAR"),
+                                 animation(good, values, "sideways", "LINEAR"),
+                                 animation(good, values, "scale", "CUBICSPLINE"),
+                                 animation(999, values, "scale", "LINEAR")};
     const Model model{"a.glb", writer.glb()};
     EXPECT_EQ(model.imported().animations.size(), 0U);
     EXPECT_EQ(model.warnings().size(), 8U);
@@ -269,7 +287,8 @@ TEST(Gltf, ReadsInstances) {
     writer.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
     const auto places = writer.positions({{0, 0, 0}, {10, 0, 0}, {0, 0, 20}});
     writer.node({{"mesh", 0},
-                 {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", places}}}}}}}});
+                 {"extensions",
+                  {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", places}}}}}}}});
     const Model model{"a.glb", writer.glb()};
     EXPECT_EQ(model.imported().trianglesDrawn, 36U);
     EXPECT_EQ(model.imported().boundsMax.get(), (math::dvec3{11, 1, 21}));
@@ -282,13 +301,16 @@ protected:
     Model read(json material, const std::string& image) {
         GltfWriter writer;
         const auto position = writer.positions({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}});
-        const auto texCoord = writer.accessor(std::vector<float>{0, 1, 1, 1, 1, 0}, 5126, "VEC2", 2);
-        writer.json["meshes"] = {{{"primitives",
-                                   {{{"attributes", {{"POSITION", position}, {"TEXCOORD_0", texCoord}}},
-                                     {"material", 0}}}}}};
+        const auto texCoord =
+            writer.accessor(std::vector<float>{0, 1, 1, 1, 1, 0}, 5126, "VEC2", 2);
+        writer.json["meshes"] = {
+            {{"primitives",
+              {{{"attributes", {{"POSITION", position}, {"TEXCOORD_0", texCoord}}},
+                {"material", 0}}}}}};
         writer.json["materials"] = {std::move(material)};
         writer.json["images"] = {{{"uri", "image.png"}}};
-        writer.json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}, {"minFilter", 9728}}};
+        writer.json["samplers"] = {
+            {{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}, {"minFilter", 9728}}};
         writer.json["textures"] = {{{"source", 0}}, {{"source", 0}, {"sampler", 0}}};
         writer.node({{"mesh", 0}});
         if (!image.empty()) folder_.write("image.png", image);
@@ -300,10 +322,15 @@ protected:
 
 TEST_F(GltfMaterialTest, TurnsMetallicRoughnessIntoPhong) {
     const auto model = read({{"pbrMetallicRoughness",
-                              {{"baseColorFactor", {0.8, 0.4, 0.2, 0.5}}, {"metallicFactor", 0}, {"roughnessFactor", 0.5}}},
-                             {"alphaMode", "BLEND"}, {"doubleSided", true}, {"emissiveFactor", {1, 0.5, 0}},
-                             {"extensions", {{"KHR_materials_unlit", json::object()},
-                                             {"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}}}}},
+                              {{"baseColorFactor", {0.8, 0.4, 0.2, 0.5}},
+                               {"metallicFactor", 0},
+                               {"roughnessFactor", 0.5}}},
+                             {"alphaMode", "BLEND"},
+                             {"doubleSided", true},
+                             {"emissiveFactor", {1, 0.5, 0}},
+                             {"extensions",
+                              {{"KHR_materials_unlit", json::object()},
+                               {"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}}}}},
                             red_);
     const auto& m = *model.all<scene::PhongMaterial>().front();
     EXPECT_EQ(m.diffuse.get(), (math::vec4{0.8F, 0.4F, 0.2F, 0.5F}));
@@ -318,7 +345,8 @@ TEST_F(GltfMaterialTest, TurnsMetallicRoughnessIntoPhong) {
 TEST_F(GltfMaterialTest, TakesTheMeanOfAMetallicRoughnessTexture) {
     // Green is roughness, blue metallic: half the texels are metal.
     const auto image = png(2, 1, {0x008000ffU, 0x0080ffffU});
-    const auto model = read({{"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", 0}}}}}}, image);
+    const auto model =
+        read({{"pbrMetallicRoughness", {{"metallicRoughnessTexture", {{"index", 0}}}}}}, image);
     const auto& m = *model.all<scene::PhongMaterial>().front();
     EXPECT_NEAR(m.specular.get().x, 0.52F, 0.01F);
     EXPECT_NEAR(m.shininess, 29.5F, 1.0F);
@@ -350,11 +378,12 @@ TEST_F(GltfMaterialTest, MakesOneTextureForAnImageSamplerAndUse) {
 
 TEST_F(GltfMaterialTest, AppliesTheTextureTransformAsItsTestModelWants) {
     // The marker of TextureTransformTest: these coordinates have to meet the arrow's tip.
-    const auto model = read({{"pbrMetallicRoughness",
-                              {{"baseColorTexture",
-                                {{"index", 0},
-                                 {"extensions", {{"KHR_texture_transform", {{"rotation", 0.39269908169872414}}}}}}}}}},
-                            red_);
+    const auto model = read(
+        {{"pbrMetallicRoughness",
+          {{"baseColorTexture",
+            {{"index", 0},
+             {"extensions", {{"KHR_texture_transform", {{"rotation", 0.39269908169872414}}}}}}}}}},
+        red_);
     const auto& m = *model.all<scene::PhongMaterial>().front();
     const math::vec3 marker{0.42095177F, 1.0162675F, 1.0F};
     EXPECT_NEAR(glm::dot(m.texRowS.get(), marker), 0.7778175F, 1e-5F);
@@ -362,7 +391,8 @@ TEST_F(GltfMaterialTest, AppliesTheTextureTransformAsItsTestModelWants) {
 }
 
 TEST_F(GltfMaterialTest, LeavesASurfaceUntexturedWhoseImageIsMissingOrBroken) {
-    const json material{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}, {"metallicFactor", 0}}}};
+    const json material{
+        {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}, {"metallicFactor", 0}}}};
     for (const std::string& image : {std::string{}, red_.substr(0, 40), png(1, 1, {0U}, 30000U)}) {
         const auto model = read(material, image);
         EXPECT_TRUE(model.all<scene::Texture>().empty());
@@ -396,7 +426,8 @@ TEST(Gltf, LeavesOutWhatIsPlacedBeyondAllNumbers) {
     json deep{{"mesh", 0}};
     writer.node({{"mesh", 0}, {"scale", {1e38, 1e38, 1e38}}});
     for (int i = 0; i < 12; ++i)
-        writer.node({{"scale", {1e38, 1e38, 1e38}}, {"children", {writer.json["nodes"].size() - 1}}});
+        writer.node(
+            {{"scale", {1e38, 1e38, 1e38}}, {"children", {writer.json["nodes"].size() - 1}}});
     const Model model{"a.glb", writer.glb()};
     EXPECT_EQ(model.imported().trianglesDrawn, 12U);
     EXPECT_TRUE(model.warned("not finite"));

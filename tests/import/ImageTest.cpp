@@ -1,13 +1,14 @@
-#include "image/Image.h"
-
 #include <gtest/gtest.h>
 
 #include "Model.h"
+#include "image/Image.h"
 
 namespace gnomon::importer {
 namespace {
 
-std::span<const std::byte> bytesOf(const std::string& text) { return std::as_bytes(std::span{text}); }
+std::span<const std::byte> bytesOf(const std::string& text) {
+    return std::as_bytes(std::span{text});
+}
 
 std::string decodeError(const std::string& file) {
     const auto image = decodedImage(bytesOf(file));
@@ -20,7 +21,8 @@ TEST(Image, DecodesTopRowFirst) {
     ASSERT_TRUE(image) << image.error().text();
     EXPECT_EQ(image->width, 2);
     EXPECT_TRUE(image->hasAlpha);
-    const std::vector<std::byte> first{std::byte{0x11}, std::byte{0x22}, std::byte{0x33}, std::byte{0x44}};
+    const std::vector<std::byte> first{std::byte{0x11}, std::byte{0x22}, std::byte{0x33},
+                                       std::byte{0x44}};
     EXPECT_TRUE(std::equal(first.begin(), first.end(), image->pixels.begin()));
     EXPECT_EQ(image->pixels.back(), std::byte{0});
 }
@@ -62,7 +64,8 @@ TEST(Image, BecomesNormalsThatLeanAwayFromTheHigherSide) {
             }
     EXPECT_TRUE(isGrey(ramp));
     const auto at = [](const Image& image, int channel) {
-        return std::to_integer<int>(image.pixels[(3 * 8 + 3) * 4 + static_cast<std::size_t>(channel)]);
+        return std::to_integer<int>(
+            image.pixels[(3 * 8 + 3) * 4 + static_cast<std::size_t>(channel)]);
     };
     const auto right = normalsFromHeights(ramp, 1.0F);
     EXPECT_LT(at(right, 0), 127);

@@ -72,14 +72,16 @@ TEST_F(ImportClient, PassesOnWhyAFileIsRefused) {
     good_ = folder_.write("bad.glb", "glTF");
     const auto error = failure();
     EXPECT_EQ(error.code, Errc::file);
-    EXPECT_EQ(error.what, good_.string() + ": GLB header: the file has 4 bytes, expected at least 12");
+    EXPECT_EQ(error.what,
+              good_.string() + ": GLB header: the file has 4 bytes, expected at least 12");
 }
 
 TEST_F(ImportClient, TellsACrashFromAKill) {
     pretend("kill -SEGV $$");
     auto error = failure();
     EXPECT_EQ(error.code, Errc::file);
-    EXPECT_NE(error.what.find("good.glb: the importer crashed (signal 11"), std::string::npos) << error.what;
+    EXPECT_NE(error.what.find("good.glb: the importer crashed (signal 11"), std::string::npos)
+        << error.what;
     EXPECT_NE(error.what.find("probably malformed"), std::string::npos);
     pretend("kill -KILL $$");
     error = failure();
@@ -89,8 +91,9 @@ TEST_F(ImportClient, TellsACrashFromAKill) {
 
 TEST_F(ImportClient, StopsAnImporterThatTakesTooLong) {
     options_.maxTime = std::chrono::seconds{1};
-    for (const char* script : {"exec sleep 60", "while :; do echo @progress 0.5 still at it >&2; done",
-                               "exec cat /dev/zero >&2", "exec >&-; exec sleep 60"}) {
+    for (const char* script :
+         {"exec sleep 60", "while :; do echo @progress 0.5 still at it >&2; done",
+          "exec cat /dev/zero >&2", "exec >&-; exec sleep 60"}) {
         pretend(script);
         const auto start = std::chrono::steady_clock::now();
         const auto error = failure();
@@ -101,7 +104,8 @@ TEST_F(ImportClient, StopsAnImporterThatTakesTooLong) {
 }
 
 TEST_F(ImportClient, StopsAnImportThatNeedsTooMuchMemory) {
-    if (reservesAddressSpace) GTEST_SKIP() << "sanitizers reserve the address space that is limited";
+    if (reservesAddressSpace)
+        GTEST_SKIP() << "sanitizers reserve the address space that is limited";
     Shape many;
     for (int i = 0; i < 200; ++i) many.add(sphere(64, 32), {static_cast<float>(i), 0.0F, 0.0F});
     GltfWriter writer;
@@ -128,7 +132,8 @@ TEST_F(ImportClient, NoticesEveryKindOfDamage) {
     damaged("cut in the header", [](std::string& b) { b.resize(20); });
     damaged("cut in the list", [](std::string& b) { b.resize(100); });
     damaged("cut at the end", [](std::string& b) { b.pop_back(); });
-    damaged("payload", [](std::string& b) { b[b.size() - 20] = static_cast<char>(b[b.size() - 20] + 1); });
+    damaged("payload",
+            [](std::string& b) { b[b.size() - 20] = static_cast<char>(b[b.size() - 20] + 1); });
     damaged("nothing", [](std::string& b) { b.clear(); });
     damaged("number of payloads", [](std::string& b) { b[40] = static_cast<char>(b[40] + 1); });
     pretend("exec cat /dev/urandom");

@@ -42,12 +42,13 @@ TEST_F(SideFiles, AreReadNowhereElse) {
     ASSERT_EQ(::mkfifo((model_.parent_path() / "pipe").c_str(), 0600), 0);
     const std::string absolute = outside_.string();
     for (const std::string& uri :
-         {std::string{"../secret.txt"}, std::string{"sub/../../secret.txt"}, std::string{"%2e%2e/secret.txt"},
-          std::string{"..%2fsecret.txt"}, absolute, "file://" + absolute, "//host" + absolute,
-          "%2f" + absolute.substr(1), std::string{"http://127.0.0.1:9/x"}, std::string{"link.txt"},
-          std::string{"a b.bin\0.png", 12}, std::string{"a%20b.bin%00.png"}, std::string{"/dev/zero"},
-          std::string{"sub"}, std::string{"pipe"}, std::string{"."}, std::string{""}, std::string{"%zz"},
-          std::string{"missing.bin"}}) {
+         {std::string{"../secret.txt"}, std::string{"sub/../../secret.txt"},
+          std::string{"%2e%2e/secret.txt"}, std::string{"..%2fsecret.txt"}, absolute,
+          "file://" + absolute, "//host" + absolute, "%2f" + absolute.substr(1),
+          std::string{"http://127.0.0.1:9/x"}, std::string{"link.txt"},
+          std::string{"a b.bin\0.png", 12}, std::string{"a%20b.bin%00.png"},
+          std::string{"/dev/zero"}, std::string{"sub"}, std::string{"pipe"}, std::string{"."},
+          std::string{""}, std::string{"%zz"}, std::string{"missing.bin"}}) {
         const auto got = read(uri);
         EXPECT_EQ(got.substr(0, 2), "! ") << uri << " -> " << got;
         EXPECT_EQ(got.find('\n'), std::string::npos);
@@ -120,7 +121,8 @@ TEST(Json, RefusesDeepNestingBeforeItIsParsed) {
 }
 
 TEST(Json, SaysWhatIsWrongAndWhere) {
-    const auto json = parsedJson(R"({"n": -1, "f": 1.5, "w": 5.0, "s": "x", "big": 1e300, "list": [1, 2, "3"]})");
+    const auto json =
+        parsedJson(R"({"n": -1, "f": 1.5, "w": 5.0, "s": "x", "big": 1e300, "list": [1, 2, "3"]})");
     const JsonView view{json, "thing 7"};
     const auto why = [](auto&& action) {
         try {
@@ -130,7 +132,8 @@ TEST(Json, SaysWhatIsWrongAndWhere) {
         }
         return std::string{};
     };
-    EXPECT_EQ(why([&] { view.unsignedInteger("n"); }), "thing 7: n is -1, expected a whole number >= 0");
+    EXPECT_EQ(why([&] { view.unsignedInteger("n"); }),
+              "thing 7: n is -1, expected a whole number >= 0");
     EXPECT_NE(why([&] { view.unsignedInteger("f"); }), "");
     EXPECT_NE(why([&] { view.unsignedInteger("big"); }), "");
     EXPECT_EQ(view.unsignedInteger("w"), 5U);

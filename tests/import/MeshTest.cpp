@@ -106,7 +106,8 @@ TEST_F(Mesh, MendsNormalsThatAreNone) {
     mesh.normals[6].x = std::numeric_limits<float>::quiet_NaN();
     const auto* g = build(mesh);
     ASSERT_NE(g, nullptr);
-    for (const auto& n : vectors<math::vec3>(g->normals)) EXPECT_EQ(n, (math::vec3{0.0F, 1.0F, 0.0F}));
+    for (const auto& n : vectors<math::vec3>(g->normals))
+        EXPECT_EQ(n, (math::vec3{0.0F, 1.0F, 0.0F}));
 }
 
 TEST(CreasedNormals, AreSmoothOnABall) {
@@ -121,8 +122,9 @@ TEST(CreasedNormals, AreTheFacesOwnOnACube) {
     const auto normals = creasedNormals(box.positions, box.indices);
     for (std::size_t i = 0; i < normals.size(); ++i) {
         const auto* c = &box.indices[i / 3 * 3];
-        const auto face = unitOr(areaNormal(box.positions[c[0]], box.positions[c[1]], box.positions[c[2]]),
-                                 math::vec3{0.0F});
+        const auto face =
+            unitOr(areaNormal(box.positions[c[0]], box.positions[c[1]], box.positions[c[2]]),
+                   math::vec3{0.0F});
         EXPECT_NEAR(glm::dot(normals[i], face), 1.0F, 1e-6F);
     }
 }
@@ -166,7 +168,8 @@ TEST(Tangents, PointAlongGrowingUWithUpGivenByTheHandedness) {
     for (const auto& t : mesh.tangents) {
         EXPECT_EQ(t, (math::vec4{1.0F, 0.0F, 0.0F, 1.0F}));
         // cross(normal, tangent) * w is where the map's +y points: up in the image.
-        EXPECT_EQ(glm::cross(math::vec3{0, 0, 1}, math::vec3{t.x, t.y, t.z}) * t.w, (math::vec3{0, 1, 0}));
+        EXPECT_EQ(glm::cross(math::vec3{0, 0, 1}, math::vec3{t.x, t.y, t.z}) * t.w,
+                  (math::vec3{0, 1, 0}));
     }
 }
 

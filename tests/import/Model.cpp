@@ -13,7 +13,8 @@
 namespace gnomon::importer {
 
 TemporaryFolder::TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "gnomon-import-XXXXXX").string();
+    std::string pattern =
+        (std::filesystem::temp_directory_path() / "gnomon-import-XXXXXX").string();
     if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error{"mkdtemp failed"};
     path_ = pattern;
 }
@@ -23,7 +24,8 @@ TemporaryFolder::~TemporaryFolder() {
     std::filesystem::remove_all(path_, ec);
 }
 
-std::filesystem::path TemporaryFolder::write(const std::string& name, std::string_view content) const {
+std::filesystem::path TemporaryFolder::write(const std::string& name,
+                                             std::string_view content) const {
     const auto path = path_ / name;
     std::filesystem::create_directories(path.parent_path());
     std::ofstream{path, std::ios::binary} << content;
@@ -137,7 +139,8 @@ std::vector<const scene::Node*> Model::nodesNamed(std::string_view name) const {
 const scene::Node& Model::node(std::string_view name) const {
     const auto found = nodesNamed(name);
     if (found.size() != 1)
-        throw std::runtime_error{std::to_string(found.size()) + " nodes are called " + std::string{name}};
+        throw std::runtime_error{std::to_string(found.size()) + " nodes are called " +
+                                 std::string{name}};
     return *found.front();
 }
 
@@ -164,13 +167,18 @@ std::string faultsOf(const scene::Geometry& g) {
                                 : g.primitive == scene::Primitive::lines   ? 2
                                                                            : 1;
     for (const auto& p : positions)
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return "a position is not finite";
-    if (!normals.empty() && normals.size() != positions.size()) return "a normal too many or too few";
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+            return "a position is not finite";
+    if (!normals.empty() && normals.size() != positions.size())
+        return "a normal too many or too few";
     for (const auto& n : normals)
         if (!(std::abs(glm::length(n) - 1.0F) < 1e-4F)) return "a normal is no unit vector";
     for (const auto* other : {&g.texCoords.get(), &g.tangents.get(), &g.colors.get()}) {
-        const std::size_t size = other == &g.texCoords.get() ? 8 : other == &g.tangents.get() ? 16 : 4;
-        if (other->size() != 0 && other->size() != positions.size() * size) return "an attribute's size";
+        const std::size_t size = other == &g.texCoords.get()  ? 8
+                                 : other == &g.tangents.get() ? 16
+                                                              : 4;
+        if (other->size() != 0 && other->size() != positions.size() * size)
+            return "an attribute's size";
     }
     std::uint32_t next = 0;
     math::vec3 min{1e38F};

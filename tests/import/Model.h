@@ -41,10 +41,15 @@ public:
     template <class T>
     std::size_t accessor(const std::vector<T>& values, int componentType, const char* type,
                          std::size_t perElement = 1) {
-        return accessor(std::as_bytes(std::span{values}), values.size() / perElement, componentType, type);
+        return accessor(std::as_bytes(std::span{values}), values.size() / perElement, componentType,
+                        type);
     }
-    std::size_t positions(const std::vector<math::vec3>& values) { return accessor(values, 5126, "VEC3"); }
-    std::size_t indices(const std::vector<std::uint32_t>& values) { return accessor(values, 5125, "SCALAR"); }
+    std::size_t positions(const std::vector<math::vec3>& values) {
+        return accessor(values, 5126, "VEC3");
+    }
+    std::size_t indices(const std::vector<std::uint32_t>& values) {
+        return accessor(values, 5125, "SCALAR");
+    }
     /// A mesh of one primitive; its number.
     std::size_t mesh(const Shape& shape);
     std::size_t node(nlohmann::json node);

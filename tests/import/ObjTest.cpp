@@ -35,10 +35,12 @@ TEST(Obj, MakesACubeOfEightCornersClosedWithCreasedNormals) {
     const auto box = cube();
     std::string text;
     for (const auto& p : box.positions)
-        text += "v " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
+        text += "v " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) +
+                "\n";
     for (std::size_t i = 0; i < box.indices.size(); i += 3)
-        text += "f " + std::to_string(box.indices[i] + 1) + " " + std::to_string(box.indices[i + 1] + 1) +
-                " " + std::to_string(box.indices[i + 2] + 1) + "\n";
+        text += "f " + std::to_string(box.indices[i] + 1) + " " +
+                std::to_string(box.indices[i + 1] + 1) + " " +
+                std::to_string(box.indices[i + 2] + 1) + "\n";
     const Model model{"a.obj", text};
     const auto& g = *model.all<scene::Geometry>().front();
     EXPECT_EQ(faultsOf(g), "");
@@ -49,9 +51,11 @@ TEST(Obj, MakesACubeOfEightCornersClosedWithCreasedNormals) {
 
 TEST(Obj, KeepsObjectsAndMaterialsApart) {
     const TemporaryFolder folder;
-    folder.write("m.mtl", "newmtl a\nKd 1 0 0\nKs 0.5 0.5 0.5\nNs 100\nnewmtl b\nKd 0 1 0\nd 0.5\n");
-    const auto file = folder.write(
-        "a.obj", "mtllib m.mtl\n" + square + "o one\nusemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\no two\nf 1 2 4\n");
+    folder.write("m.mtl",
+                 "newmtl a\nKd 1 0 0\nKs 0.5 0.5 0.5\nNs 100\nnewmtl b\nKd 0 1 0\nd 0.5\n");
+    const auto file =
+        folder.write("a.obj", "mtllib m.mtl\n" + square +
+                                  "o one\nusemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\no two\nf 1 2 4\n");
     const Model model{file};
     EXPECT_EQ(model.all<scene::Geometry>().size(), 3U);
     EXPECT_EQ(model.nodesNamed("one").size(), 4U);  // two parts, material above geometry
@@ -70,9 +74,12 @@ TEST(Obj, PutsAMaskIntoTheAlphaOfTheTexture) {
     const TemporaryFolder folder;
     folder.write("tex/a.png", png(2, 1, {0xff0000ffU, 0x00ff00ffU}));
     folder.write("tex/mask.png", png(2, 1, {0xffffffffU, 0x000000ffU}));
-    folder.write("m.mtl", "newmtl leaf\nmap_Kd -s 1 1 1 tex\\a.png\nmap_d tex/mask.png\nbump -bm 0.5 tex\\mask.png\n");
+    folder.write("m.mtl",
+                 "newmtl leaf\nmap_Kd -s 1 1 1 tex\\a.png\nmap_d tex/mask.png\nbump -bm 0.5 "
+                 "tex\\mask.png\n");
     const Model model{folder.write(
-        "a.obj", "mtllib m.mtl\n" + square + "vt 0 0\nvt 1 0\nvt 1 1\nusemtl leaf\nf 1/1 2/2 3/3\n")};
+        "a.obj",
+        "mtllib m.mtl\n" + square + "vt 0 0\nvt 1 0\nvt 1 1\nusemtl leaf\nf 1/1 2/2 3/3\n")};
     EXPECT_TRUE(model.warnings().empty());
     const auto& m = *model.all<scene::PhongMaterial>().front();
     EXPECT_EQ(m.alpha, scene::PhongMaterial::Alpha::mask);
@@ -84,7 +91,9 @@ TEST(Obj, PutsAMaskIntoTheAlphaOfTheTexture) {
 }
 
 TEST(Obj, LeavesOutFacesWithFaults) {
-    const Model model{"a.obj", square + "f 1 2 99\nf -9 1 2\nf 0 1 2\nf 1/2/3 2//9 3/\nf ////\nf 1\nf\nf 1 2 3\n"};
+    const Model model{
+        "a.obj",
+        square + "f 1 2 99\nf -9 1 2\nf 0 1 2\nf 1/2/3 2//9 3/\nf ////\nf 1\nf\nf 1 2 3\n"};
     EXPECT_EQ(model.imported().trianglesDrawn, 1U);
     EXPECT_TRUE(model.warned("line 5"));
     EXPECT_TRUE(model.warned("7 faces"));
@@ -102,7 +111,8 @@ TEST(Obj, ReadsLinesPointsAndVertexColors) {
     ASSERT_EQ(all.size(), 2U);
     for (const auto* g : all) {
         EXPECT_EQ(faultsOf(*g), "");
-        EXPECT_EQ(g->indices->as<std::uint32_t>().size(), g->primitive == scene::Primitive::lines ? 4U : 2U);
+        EXPECT_EQ(g->indices->as<std::uint32_t>().size(),
+                  g->primitive == scene::Primitive::lines ? 4U : 2U);
         EXPECT_EQ(g->colors->as<std::uint8_t>()[0], 255);
         EXPECT_EQ(g->colors->as<std::uint8_t>()[1], 0);
     }
@@ -117,11 +127,13 @@ TEST(Obj, RefusesWhatIsNone) {
     EXPECT_EQ(refusal("a.obj", square + "v 1 2\n"), "line 5: v: 2 numbers, expected 3");
     std::string corners;
     for (int i = 0; i < 20000; ++i) corners += " 1";
-    EXPECT_NE(refusal("a.obj", square + "f" + corners + "\n").find("20000 corners"), std::string::npos);
+    EXPECT_NE(refusal("a.obj", square + "f" + corners + "\n").find("20000 corners"),
+              std::string::npos);
 }
 
 TEST(Obj, ReadsNoLibraryOutsideItsFolder) {
-    const Model model{"a.obj", "mtllib ../../../../../../etc/passwd\n" + square + "usemtl root\nf 1 2 3\n"};
+    const Model model{"a.obj",
+                      "mtllib ../../../../../../etc/passwd\n" + square + "usemtl root\nf 1 2 3\n"};
     EXPECT_TRUE(model.warned("only files below the model's folder"));
     EXPECT_TRUE(model.warned("\"root\" is not defined"));
     EXPECT_EQ(model.imported().trianglesDrawn, 1U);
@@ -136,9 +148,10 @@ TEST(Obj, TakesALineOfTwoMegabytes) {
 TEST(Mtl, SkipsTheOptionsOfMaps) {
     MtlLibrary library;
     Report report;
-    parseMtl("newmtl m\nmap_Kd -clamp on -o 0.1 0.2 -blendu off my picture.png\nmap_Bump -bm 0.3 b.png\n"
-             "map_Kd2 x\nNs abc\nKd 0.5\n",
-             "m.mtl", library, report);
+    parseMtl(
+        "newmtl m\nmap_Kd -clamp on -o 0.1 0.2 -blendu off my picture.png\nmap_Bump -bm 0.3 b.png\n"
+        "map_Kd2 x\nNs abc\nKd 0.5\n",
+        "m.mtl", library, report);
     const auto& m = library.find("m")->second;
     EXPECT_EQ(m.diffuseMap, "my picture.png");
     EXPECT_EQ(m.bumpMap, "b.png");

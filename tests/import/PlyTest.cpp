@@ -8,7 +8,8 @@
 namespace gnomon::importer {
 namespace {
 
-std::string header(const std::string& vertices, const std::string& faces, const std::string& format = "ascii") {
+std::string header(const std::string& vertices, const std::string& faces,
+                   const std::string& format = "ascii") {
     return "ply\nformat " + format + " 1.0\ncomment made by hand\nelement vertex " + vertices +
            "\nproperty float x\nproperty float y\nproperty float z\nelement face " + faces +
            "\nproperty list uchar int vertex_indices\nend_header\n";
@@ -33,7 +34,8 @@ TEST(Ply, ReadsAscii) {
 TEST(Ply, ReadsBothByteOrders) {
     for (const bool big : {false, true}) {
         auto text = header("3", "1", big ? "binary_big_endian" : "binary_little_endian");
-        for (const float v : {0.0F, 0.0F, 0.0F, 7.0F, 0.0F, 0.0F, 0.0F, 5.0F, 0.0F}) put(text, v, big);
+        for (const float v : {0.0F, 0.0F, 0.0F, 7.0F, 0.0F, 0.0F, 0.0F, 5.0F, 0.0F})
+            put(text, v, big);
         text += '\3';
         for (const std::int32_t v : {0, 1, 2}) put(text, v, big);
         const Model model{"a.ply", text};
@@ -44,11 +46,14 @@ TEST(Ply, ReadsBothByteOrders) {
 
 TEST(Ply, ReadsOtherPropertiesColorsAndStrips) {
     const std::string text =
-        "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
-        "property list uchar int neighbours\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty "
+        "double z\n"
+        "property list uchar int neighbours\nproperty uchar red\nproperty uchar green\nproperty "
+        "uchar blue\n"
         "property float nx\nproperty float ny\nproperty float nz\nelement other 1\nproperty int n\n"
         "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
-        "0 0 0 2 5 6 255 0 0 0 0 1\n1 0 0 0 0 255 0 0 0 1\n0 1 0 0 0 0 255 0 0 1\n1 1 0 0 1 1 1 0 0 1\n"
+        "0 0 0 2 5 6 255 0 0 0 0 1\n1 0 0 0 0 255 0 0 0 1\n0 1 0 0 0 0 255 0 0 1\n1 1 0 0 1 1 1 0 "
+        "0 1\n"
         "99\n8 0 1 2 3 -1 0 1 2\n";
     const Model model{"a.ply", text};
     EXPECT_EQ(model.imported().trianglesDrawn, 3U);
@@ -81,7 +86,8 @@ TEST(Ply, RefusesHeadersWithFaults) {
     refused("plough\n", "format");
     refused("nothing", "no PLY file");
     refused(header("-3", "1") + three, "\"-3\"");
-    refused(header("4294967295", "4294967295", "binary_little_endian"), "4294967295 elements \"vertex\"");
+    refused(header("4294967295", "4294967295", "binary_little_endian"),
+            "4294967295 elements \"vertex\"");
     refused(header("99999999999999999999", "1"), "expected a whole number");
     refused(header("3", "1", "utf8") + three, "format \"utf8\"");
     std::string endless;

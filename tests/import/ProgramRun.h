@@ -8,7 +8,7 @@ namespace gnomon::importer {
 
 /// How a run of gnomon-import ended.
 struct ProgramRun {
-    int code = -1;    ///< exit code; -1: ended by a signal
+    int code = -1;  ///< exit code; -1: ended by a signal
     int signal = 0;
     std::string errors = {};
     std::uint64_t outputBytes = 0;

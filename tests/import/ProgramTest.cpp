@@ -42,7 +42,8 @@ TEST(ImportProgram, RefusesWithOneLineThatNamesTheFile) {
 
 TEST(ImportProgram, RefusesWhatIsNoRegularFile) {
     const TemporaryFolder folder;
-    for (const std::string& file : {std::string{"/dev/zero"}, folder.path().string(), (folder.path() / "none.glb").string()}) {
+    for (const std::string& file : {std::string{"/dev/zero"}, folder.path().string(),
+                                    (folder.path() / "none.glb").string()}) {
         const auto run = runImporter({file, "--output", "-"});
         EXPECT_EQ(run.code, 1) << file;
         EXPECT_EQ(std::count(run.errors.begin(), run.errors.end(), '\n'), 1) << run.errors;

@@ -21,52 +21,124 @@ json& indices(json& file) { return file["accessors"][1]; }
 json& primitive(json& file) { return file["meshes"][0]["primitives"][0]; }
 
 const Case cases[] = {
-    {"viewOverruns", [](json& f) { f["bufferViews"][0]["byteLength"] = 1 << 20; }, "buffer view 0: bytes 0 to 1048576, but buffer 0 has 240"},
-    {"viewOffsetNegative", [](json& f) { f["bufferViews"][0]["byteOffset"] = -64; }, "byteOffset is -64"},
-    {"viewOffsetHuge", [](json& f) { f["bufferViews"][0]["byteOffset"] = 0xfffffffffffffff0U; }, "byteOffset"},
-    {"viewOfNoBuffer", [](json& f) { f["bufferViews"][0]["buffer"] = 3; }, "buffer is 3, but there are 1 buffers"},
+    {"viewOverruns", [](json& f) { f["bufferViews"][0]["byteLength"] = 1 << 20; },
+     "buffer view 0: bytes 0 to 1048576, but buffer 0 has 240"},
+    {"viewOffsetNegative", [](json& f) { f["bufferViews"][0]["byteOffset"] = -64; },
+     "byteOffset is -64"},
+    {"viewOffsetHuge", [](json& f) { f["bufferViews"][0]["byteOffset"] = 0xfffffffffffffff0U; },
+     "byteOffset"},
+    {"viewOfNoBuffer", [](json& f) { f["bufferViews"][0]["buffer"] = 3; },
+     "buffer is 3, but there are 1 buffers"},
     {"strideOdd", [](json& f) { f["bufferViews"][0]["byteStride"] = 3; }, "byteStride is 3"},
     {"strideZero", [](json& f) { f["bufferViews"][0]["byteStride"] = 0; }, "byteStride is 0"},
-    {"strideTooSmall", [](json& f) { f["bufferViews"][0]["byteStride"] = 8; }, "elements of 12 bytes"},
-    {"countTooLarge", [](json& f) { position(f)["count"] = 9; }, "accessor 0 (POSITION): 9 elements, but buffer view 0 holds 8"},
-    {"countHuge", [](json& f) { position(f)["count"] = 4294967295U; }, "accessor 0 (POSITION): 4294967295 elements"},
-    {"countOfNoView", [](json& f) { position(f).erase("bufferView"); position(f)["count"] = 2000000000; }, "2000000000 vertices in one primitive"},
+    {"strideTooSmall", [](json& f) { f["bufferViews"][0]["byteStride"] = 8; },
+     "elements of 12 bytes"},
+    {"countTooLarge", [](json& f) { position(f)["count"] = 9; },
+     "accessor 0 (POSITION): 9 elements, but buffer view 0 holds 8"},
+    {"countHuge", [](json& f) { position(f)["count"] = 4294967295U; },
+     "accessor 0 (POSITION): 4294967295 elements"},
+    {"countOfNoView",
+     [](json& f) {
+         position(f).erase("bufferView");
+         position(f)["count"] = 2000000000;
+     },
+     "2000000000 vertices in one primitive"},
     {"countFraction", [](json& f) { position(f)["count"] = 1.5; }, "count is 1.5"},
     {"componentType", [](json& f) { position(f)["componentType"] = 9999; }, "componentType 9999"},
     {"vec9", [](json& f) { position(f)["type"] = "VEC9"; }, "VEC9"},
     {"positionVec2", [](json& f) { position(f)["type"] = "VEC2"; }, "expected type VEC3"},
     {"indicesFloat", [](json& f) { indices(f)["componentType"] = 5126; }, "unsigned integers"},
     {"accessorOffset", [](json& f) { position(f)["byteOffset"] = 8; }, "holds 7"},
-    {"noSuchAccessor", [](json& f) { primitive(f)["attributes"]["POSITION"] = 9999; }, "POSITION is 9999, but there are 2 accessors"},
-    {"unequalCounts", [](json& f) { primitive(f)["attributes"]["NORMAL"] = 2; f["accessors"].push_back(position(f)); f["accessors"][2]["count"] = 7; }, "7 elements, but accessor 0 (POSITION) has 8"},
+    {"noSuchAccessor", [](json& f) { primitive(f)["attributes"]["POSITION"] = 9999; },
+     "POSITION is 9999, but there are 2 accessors"},
+    {"unequalCounts",
+     [](json& f) {
+         primitive(f)["attributes"]["NORMAL"] = 2;
+         f["accessors"].push_back(position(f));
+         f["accessors"][2]["count"] = 7;
+     },
+     "7 elements, but accessor 0 (POSITION) has 8"},
     {"mode", [](json& f) { primitive(f)["mode"] = 7; }, "mode is 7"},
-    {"noSuchMaterial", [](json& f) { primitive(f)["material"] = 0; }, "material is 0, but there are 0 materials"},
+    {"noSuchMaterial", [](json& f) { primitive(f)["material"] = 0; },
+     "material is 0, but there are 0 materials"},
     {"noSuchMesh", [](json& f) { f["nodes"][0]["mesh"] = 1; }, "node 0: mesh is 1"},
-    {"sparseIndex", [](json& f) { position(f)["sparse"] = {{"count", 1}, {"indices", {{"bufferView", 1}, {"byteOffset", 8}, {"componentType", 5125}}}, {"values", {{"bufferView", 0}}}}; f["accessors"][0]["count"] = 3; }, "sparse: index 0"},
-    {"sparseCount", [](json& f) { position(f)["sparse"] = {{"count", 1000000000}, {"indices", {{"bufferView", 1}, {"componentType", 5125}}}, {"values", {{"bufferView", 0}}}}; }, "1000000000 elements replaced of 8"},
-    {"cycle", [](json& f) { f["nodes"] = {{{"children", {1}}}, {{"children", {2}}}, {{"children", {0}}}}; f["scenes"] = {{{"nodes", {0}}}}; }, "cycle"},
+    {"sparseIndex",
+     [](json& f) {
+         position(f)["sparse"] = {
+             {"count", 1},
+             {"indices", {{"bufferView", 1}, {"byteOffset", 8}, {"componentType", 5125}}},
+             {"values", {{"bufferView", 0}}}};
+         f["accessors"][0]["count"] = 3;
+     },
+     "sparse: index 0"},
+    {"sparseCount",
+     [](json& f) {
+         position(f)["sparse"] = {{"count", 1000000000},
+                                  {"indices", {{"bufferView", 1}, {"componentType", 5125}}},
+                                  {"values", {{"bufferView", 0}}}};
+     },
+     "1000000000 elements replaced of 8"},
+    {"cycle",
+     [](json& f) {
+         f["nodes"] = {{{"children", {1}}}, {{"children", {2}}}, {{"children", {0}}}};
+         f["scenes"] = {{{"nodes", {0}}}};
+     },
+     "cycle"},
     {"ownChild", [](json& f) { f["nodes"][0]["children"] = {0}; }, "its own child"},
-    {"twoParents", [](json& f) { f["nodes"] = {{{"children", {2}}}, {{"children", {2}}}, json::object()}; }, "two parents"},
-    {"childTwice", [](json& f) { f["nodes"] = {{{"children", {1, 1}}}, json::object()}; }, "twice"},
-    {"noSuchChild", [](json& f) { f["nodes"][0]["children"] = {77}; }, "node 0: children names 77, but there are 1 nodes"},
-    {"noSuchRoot", [](json& f) { f["scenes"] = {{{"nodes", {5}}}}; }, "5"},
-    {"noSuchScene", [](json& f) { f["scenes"] = {{{"nodes", {0}}}}; f["scene"] = 4; }, "scene is 4"},
-    {"matrixTooLarge", [](json& f) { f["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1e39, 0, 0, 1}; }, "1e+39 does not fit a float"},
-    {"matrixOfFifteen", [](json& f) { f["nodes"][0]["matrix"] = std::vector<int>(15, 1); }, "expected an array of 16 numbers"},
+    {"twoParents",
+     [](json& f) {
+         f["nodes"] = {{{"children", {2}}}, {{"children", {2}}}, json::object()};
+     },
+     "two parents"},
+    {"childTwice",
+     [](json& f) {
+         f["nodes"] = {{{"children", {1, 1}}}, json::object()};
+     },
+     "twice"},
+    {"noSuchChild", [](json& f) { f["nodes"][0]["children"] = {77}; },
+     "node 0: children names 77, but there are 1 nodes"},
+    {"noSuchRoot",
+     [](json& f) {
+         f["scenes"] = {{{"nodes", {5}}}};
+     },
+     "5"},
+    {"noSuchScene",
+     [](json& f) {
+         f["scenes"] = {{{"nodes", {0}}}};
+         f["scene"] = 4;
+     },
+     "scene is 4"},
+    {"matrixTooLarge",
+     [](json& f) { f["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1e39, 0, 0, 1}; },
+     "1e+39 does not fit a float"},
+    {"matrixOfFifteen", [](json& f) { f["nodes"][0]["matrix"] = std::vector<int>(15, 1); },
+     "expected an array of 16 numbers"},
     {"version", [](json& f) { f["asset"]["version"] = "99.0"; }, "version \"99.0\""},
     {"minVersion", [](json& f) { f["asset"]["minVersion"] = "3.0"; }, "minVersion \"3.0\""},
     {"noAsset", [](json& f) { f.erase("asset"); }, "asset: is missing"},
-    {"unknownExtension", [](json& f) { f["extensionsRequired"] = {"EXT_nobody_has"}; }, "EXT_nobody_has"},
+    {"unknownExtension", [](json& f) { f["extensionsRequired"] = {"EXT_nobody_has"}; },
+     "EXT_nobody_has"},
     {"draco", [](json& f) { f["extensionsRequired"] = {"KHR_draco_mesh_compression"}; }, "Draco"},
-    {"bufferShort", [](json& f) { f["buffers"][0]["byteLength"] = 100000; }, "byteLength is 100000, but there are 240 bytes"},
-    {"bufferMissing", [](json& f) { f["buffers"][0]["uri"] = "does_not_exist.bin"; }, "\"does_not_exist.bin\""},
-    {"bufferTraversal", [](json& f) { f["buffers"][0]["uri"] = "../../etc/passwd"; }, "only files below"},
+    {"bufferShort", [](json& f) { f["buffers"][0]["byteLength"] = 100000; },
+     "byteLength is 100000, but there are 240 bytes"},
+    {"bufferMissing", [](json& f) { f["buffers"][0]["uri"] = "does_not_exist.bin"; },
+     "\"does_not_exist.bin\""},
+    {"bufferTraversal", [](json& f) { f["buffers"][0]["uri"] = "../../etc/passwd"; },
+     "only files below"},
     {"bufferAbsolute", [](json& f) { f["buffers"][0]["uri"] = "/etc/passwd"; }, "only files below"},
     {"bufferDevice", [](json& f) { f["buffers"][0]["uri"] = "/dev/zero"; }, "only files below"},
-    {"bufferHttp", [](json& f) { f["buffers"][0]["uri"] = "http://127.0.0.1:9/x.bin"; }, "only data: URIs"},
-    {"bufferBase64", [](json& f) { f["buffers"][0]["uri"] = "data:application/octet-stream;base64,@@@@"; }, "base64"},
-    {"wrongTypes", [](json& f) { f["accessors"] = "many"; }, "accessors is \"many\", expected an array"},
-    {"nodesOfNumbers", [](json& f) { f["nodes"] = {1, 2}; }, "node 0 is 1, expected an object"},
+    {"bufferHttp", [](json& f) { f["buffers"][0]["uri"] = "http://127.0.0.1:9/x.bin"; },
+     "only data: URIs"},
+    {"bufferBase64",
+     [](json& f) { f["buffers"][0]["uri"] = "data:application/octet-stream;base64,@@@@"; },
+     "base64"},
+    {"wrongTypes", [](json& f) { f["accessors"] = "many"; },
+     "accessors is \"many\", expected an array"},
+    {"nodesOfNumbers",
+     [](json& f) {
+         f["nodes"] = {1, 2};
+     },
+     "node 0 is 1, expected an object"},
 };
 
 class Refused : public testing::TestWithParam<Case> {};
@@ -89,7 +161,9 @@ TEST_P(Refused, InOneLineThatSaysWhy) {
 INSTANTIATE_TEST_SUITE_P(Gltf, Refused, testing::ValuesIn(cases),
                          [](const auto& info) { return std::string{info.param.name}; });
 
-TEST(Gltf, TakesTheFileThatTheRefusedOnesAreMadeOf) { EXPECT_EQ(refusal("a.gltf", written(nullptr)), ""); }
+TEST(Gltf, TakesTheFileThatTheRefusedOnesAreMadeOf) {
+    EXPECT_EQ(refusal("a.gltf", written(nullptr)), "");
+}
 
 TEST(Gltf, RefusesAnIndexOutOfRangeByItsAccessor) {
     GltfWriter writer;

@@ -39,7 +39,8 @@ Shape sphere(std::uint32_t columns, std::uint32_t rows) {
         for (std::uint32_t c = 0; c < columns; ++c) {
             const double theta = pi * r / rows;
             const double phi = 2.0 * pi * c / columns;
-            shape.positions.emplace_back(math::dvec3{std::sin(theta) * std::cos(phi), std::cos(theta),
+            shape.positions.emplace_back(math::dvec3{std::sin(theta) * std::cos(phi),
+                                                     std::cos(theta),
                                                      -std::sin(theta) * std::sin(phi)});
         }
     }
@@ -52,9 +53,11 @@ Shape sphere(std::uint32_t columns, std::uint32_t rows) {
     for (std::uint32_t r = 0; r < rows; ++r) {
         for (std::uint32_t c = 0; c < columns; ++c) {
             if (r + 1 < rows)
-                shape.indices.insert(shape.indices.end(), {at(r, c), at(r + 1, c), at(r + 1, c + 1)});
+                shape.indices.insert(shape.indices.end(),
+                                     {at(r, c), at(r + 1, c), at(r + 1, c + 1)});
             if (r > 0)
-                shape.indices.insert(shape.indices.end(), {at(r, c), at(r + 1, c + 1), at(r, c + 1)});
+                shape.indices.insert(shape.indices.end(),
+                                     {at(r, c), at(r + 1, c + 1), at(r, c + 1)});
         }
     }
     return shape;

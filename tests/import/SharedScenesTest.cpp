@@ -24,7 +24,9 @@ std::vector<std::string> cells(const std::string& line) {
     std::stringstream stream{line};
     for (std::string cell; std::getline(stream, cell, '|');) {
         const auto first = cell.find_first_not_of(' ');
-        out.push_back(first == std::string::npos ? "" : cell.substr(first, cell.find_last_not_of(' ') - first + 1));
+        out.push_back(first == std::string::npos
+                          ? ""
+                          : cell.substr(first, cell.find_last_not_of(' ') - first + 1));
     }
     return out;
 }
@@ -56,7 +58,8 @@ Manifest readManifest() {
         std::erase(number, ',');
         scene.drawn = std::stoull(number);
         auto& b = scene.box;
-        if (std::sscanf(c[9].c_str(), "(%lf, %lf, %lf) .. (%lf, %lf, %lf)", &b[0], &b[1], &b[2], &b[3], &b[4], &b[5]) != 6)
+        if (std::sscanf(c[9].c_str(), "(%lf, %lf, %lf) .. (%lf, %lf, %lf)", &b[0], &b[1], &b[2],
+                        &b[3], &b[4], &b[5]) != 6)
             continue;
         manifest.scenes[c[1]] = scene;
     }
@@ -64,7 +67,8 @@ Manifest readManifest() {
 }
 
 TEST(SharedScenes, ComeOutAsTheirManifestSays) {
-    if (sharedScenes().empty()) GTEST_SKIP() << "there is no shared/scenes beside the source folder";
+    if (sharedScenes().empty())
+        GTEST_SKIP() << "there is no shared/scenes beside the source folder";
     const auto manifest = readManifest();
     ASSERT_GT(manifest.scenes.size(), 30U);
     for (const auto& [name, scene] : manifest.scenes) {
@@ -72,7 +76,8 @@ TEST(SharedScenes, ComeOutAsTheirManifestSays) {
         SCOPED_TRACE(name);
         const auto start = std::chrono::steady_clock::now();
         const auto list = importScene(sharedScenes() / "dev" / name);
-        const auto seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        const auto seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         if (!list) {
             ADD_FAILURE() << list.error().text();
             continue;
@@ -81,21 +86,25 @@ TEST(SharedScenes, ComeOutAsTheirManifestSays) {
         std::printf("%6.2f s  %8llu triangles  %2zu warnings  %s\n", seconds,
                     static_cast<unsigned long long>(model.imported().trianglesDrawn.get()),
                     model.warnings().size(), name.c_str());
-        for (const auto* geometry : model.all<scene::Geometry>()) EXPECT_EQ(faultsOf(*geometry), "");
+        for (const auto* geometry : model.all<scene::Geometry>())
+            EXPECT_EQ(faultsOf(*geometry), "");
         // The manifest does not expand instances; we do.
         const bool instances = name.find("SimpleInstancing") != std::string::npos;
         EXPECT_EQ(model.imported().trianglesDrawn, instances ? 125 * scene.drawn : scene.drawn);
         for (int axis = 0; axis < 3 && !instances; ++axis) {
             const auto a = static_cast<std::size_t>(axis);
             // Four digits, as written.
-            EXPECT_NEAR(model.imported().boundsMin.get()[axis], scene.box[a], std::max(6e-4 * std::abs(scene.box[a]), 6e-5));
-            EXPECT_NEAR(model.imported().boundsMax.get()[axis], scene.box[a + 3], std::max(6e-4 * std::abs(scene.box[a + 3]), 6e-5));
+            EXPECT_NEAR(model.imported().boundsMin.get()[axis], scene.box[a],
+                        std::max(6e-4 * std::abs(scene.box[a]), 6e-5));
+            EXPECT_NEAR(model.imported().boundsMax.get()[axis], scene.box[a + 3],
+                        std::max(6e-4 * std::abs(scene.box[a + 3]), 6e-5));
         }
     }
 }
 
 TEST(SharedScenes, ThatCannotBeReadAreRefusedClearly) {
-    if (sharedScenes().empty()) GTEST_SKIP() << "there is no shared/scenes beside the source folder";
+    if (sharedScenes().empty())
+        GTEST_SKIP() << "there is no shared/scenes beside the source folder";
     const auto draco = importScene(sharedScenes() / "dev/bicycle/bicycle_draco.gltf");
     ASSERT_FALSE(draco);
     EXPECT_NE(draco.error().what.find("Draco"), std::string::npos);
@@ -115,7 +124,8 @@ std::optional<int> wantedCode(const std::string& words) {
 }
 
 TEST(HostileFiles, AreRefusedOrReadInTimeAndMemoryAndNeverCrash) {
-    if (sharedScenes().empty()) GTEST_SKIP() << "there is no shared/scenes beside the source folder";
+    if (sharedScenes().empty())
+        GTEST_SKIP() << "there is no shared/scenes beside the source folder";
     const auto manifest = readManifest();
     std::size_t files = 0;
     for (const auto& entry : std::filesystem::directory_iterator{sharedScenes() / "bad"}) {
@@ -138,7 +148,8 @@ TEST(HostileFiles, AreRefusedOrReadInTimeAndMemoryAndNeverCrash) {
             const auto list = importScene(entry.path());
             ASSERT_TRUE(list) << list.error().text();
             const Model model{*list};
-            for (const auto* geometry : model.all<scene::Geometry>()) EXPECT_EQ(faultsOf(*geometry), "");
+            for (const auto* geometry : model.all<scene::Geometry>())
+                EXPECT_EQ(faultsOf(*geometry), "");
             std::printf("loads: %s", name.c_str());
             for (const auto& warning : model.warnings()) std::printf(" | %s", warning.c_str());
             std::printf("\n");

@@ -1,11 +1,10 @@
-#include "mesh/Topology.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "Shapes.h"
 #include "mesh/Chunks.h"
+#include "mesh/Topology.h"
 
 namespace gnomon::importer {
 namespace {

@@ -1,11 +1,10 @@
-#include "mesh/Triangulate.h"
-
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <cmath>
 
 #include "mesh/Normals.h"
+#include "mesh/Triangulate.h"
 
 namespace gnomon::importer {
 namespace {
@@ -16,7 +15,8 @@ double signedArea(const std::vector<math::vec3>& polygon, const std::vector<std:
     double area = 0.0;
     for (std::size_t i = 0; i < cut.size(); i += 3) {
         const double part =
-            0.5 * glm::dot(areaNormal(polygon[cut[i]], polygon[cut[i + 1]], polygon[cut[i + 2]]), normal);
+            0.5 *
+            glm::dot(areaNormal(polygon[cut[i]], polygon[cut[i + 1]], polygon[cut[i + 2]]), normal);
         EXPECT_GE(part, -1e-6) << "triangle " << i / 3 << " is turned over";
         area += part;
     }
@@ -26,7 +26,8 @@ double signedArea(const std::vector<math::vec3>& polygon, const std::vector<std:
 std::vector<math::vec3> star(std::size_t points) {
     std::vector<math::vec3> polygon;
     for (std::size_t i = 0; i < 2 * points; ++i) {
-        const double angle = 3.14159265358979 * static_cast<double>(i) / static_cast<double>(points);
+        const double angle =
+            3.14159265358979 * static_cast<double>(i) / static_cast<double>(points);
         const double r = i % 2 == 0 ? 1.0 : 0.3;
         polygon.emplace_back(math::dvec3{r * std::cos(angle), r * std::sin(angle), 0.0});
     }
@@ -69,7 +70,9 @@ TEST(Triangulate, KeepsTheWindingOfAPolygonInAnyPlane) {
         for (int axis = 0; axis < 3; ++axis) {
             auto polygon = star(5);
             for (auto& p : polygon)
-                p = axis == 0 ? p : axis == 1 ? math::vec3{p.z, p.x, p.y} : math::vec3{p.y, p.z, p.x};
+                p = axis == 0   ? p
+                    : axis == 1 ? math::vec3{p.z, p.x, p.y}
+                                : math::vec3{p.y, p.z, p.x};
             math::dvec3 normal{0.0};
             normal[axis == 0 ? 2 : axis - 1] = reversed ? -1.0 : 1.0;
             if (reversed) std::reverse(polygon.begin(), polygon.end());

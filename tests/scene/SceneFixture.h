@@ -43,8 +43,8 @@ protected:
         static constexpr std::uint32_t indices[] = {0, 1, 2, 1, 2, 3};
         const Geometry& geometry = source.create<Geometry>();
         auto e = edit(geometry);
-        e->positions = Payload::of(std::span{positions});
-        e->indices = Payload::of(std::span{indices});
+        e->positions = Payload::of<float>(positions);
+        e->indices = Payload::of<std::uint32_t>(indices);
         e->chunks.assign({Chunk{.indexCount = 6, .max = math::vec3{1.0F}}});
         e->boundsMax = math::vec3{1.0F};
         return geometry;

@@ -94,6 +94,11 @@ Config localized(const Config& config) {
             window.gpu.reset();
         }
     }
+    // Processes that share one machine's cores wait for each other; one that died is noticed by its
+    // closed connection, without any timeout.
+    constexpr double secondsPerServer = 0.25;
+    result.sync.timeout = std::max(
+        result.sync.timeout, secondsPerServer * static_cast<double>(result.servers.size()));
     return result;
 }
 

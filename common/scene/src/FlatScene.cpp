@@ -26,11 +26,18 @@ void FlatScene::update(Ref<Node> root, std::span<const Ref<Node>> excluded,
     bool lights = false;
     bool places = false;
     static constexpr field::TypeId transformType = field::typeIdOf(Transform::typeName);
+    static constexpr field::TypeId nodeType = field::typeIdOf(Node::typeName);
     for (const auto& change : applied.changed) {
         if (structure) break;
         const field::FieldContainer* container = aspect_.find(change.id);
-        if (container == nullptr || !parts_.contains(change.id)) continue;
-        if (container->type().id == transformType) {
+        if (container == nullptr) continue;
+        const field::TypeId type = container->type().id;
+        if (!parts_.contains(change.id)) {
+            // It may stand above a light's beacon, which may hang anywhere.
+            lights = lights || type == transformType || type == nodeType;
+            continue;
+        }
+        if (type == transformType) {
             const auto [first, last] = placesOf_.equal_range(change.id);
             for (auto at = first; at != last; ++at) places_[at->second].dirty = places = true;
         } else if (dynamic_cast<const Light*>(container) != nullptr) {
@@ -42,9 +49,8 @@ void FlatScene::update(Ref<Node> root, std::span<const Ref<Node>> excluded,
     for (const field::Id id : applied.destroyed) structure = structure || parts_.contains(id);
     if (structure) {
         rebuild(root, excluded);
-    } else if (places || lights) {
+    } else if (places || (lights && !lights_.empty())) {
         if (places) refreshPlaces();
-        // A light's beacon may hang anywhere, so lights are looked up again whenever things move.
         refreshLights();
     }
 }

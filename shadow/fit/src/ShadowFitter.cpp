@@ -163,7 +163,7 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group) {
         }
         auto e = edit(*state);
         e->light = *use.node;
-        e->group = scene::Ref<field::FieldContainer>{group.id};
+        e->group = field::WeakRef<field::FieldContainer>{group.id};
         e->filter = technique->filter;
         e->mapSize = rounded;
         e->pageSize = page;

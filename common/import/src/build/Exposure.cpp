@@ -10,7 +10,8 @@ double distance(const math::Box& box, const math::dvec3& point) noexcept {
     return glm::length(glm::max(glm::max(box.min - point, point - box.max), math::dvec3{0.0}));
 }
 
-/// Luminous part of a linear colour (ITU-R BT.709), so that a deep blue lamp is not taken for bright.
+/// Luminous part of a linear colour (ITU-R BT.709), so that a deep blue lamp is not taken for
+/// bright.
 double luminance(const math::vec3& c) noexcept {
     return 0.2126 * double{c.x} + 0.7152 * double{c.y} + 0.0722 * double{c.z};
 }

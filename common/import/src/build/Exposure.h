@@ -15,8 +15,8 @@ struct LightDraft {
     Kind kind = Kind::point;
     std::string name = {};
     math::vec3 color{1.0F};
-    double intensity = 1.0;  ///< lux (directional), candela (point, spot); >= 0
-    double range = 0.0;      ///< metres; 0: unlimited
+    double intensity = 1.0;   ///< lux (directional), candela (point, spot); >= 0
+    double range = 0.0;       ///< metres; 0: unlimited
     double innerAngle = 0.0;  ///< half angles, radians
     double outerAngle = 0.7853981633974483;
     const scene::Node* beacon = nullptr;
@@ -29,8 +29,8 @@ struct LightDraft {
 /// have no camera exposure. So light is scaled until it is neither black nor burnt: where there are
 /// directional lights, the brightest gets intensity 1 (a white surface facing it gets radiance 1);
 /// where there are none, the strongest point or spot light gets attenuated intensity 1 at the
-/// distance of what it stands next to - the nearest drawn box, but at least a seventh of the scene's
-/// radius and at most half its range. The ratios between the lights of a file stay.
+/// distance of what it stands next to - the nearest drawn box, but at least a seventh of the
+/// scene's radius and at most half its range. The ratios between the lights of a file stay.
 /// @param drawn  boxes of what is drawn, world space
 /// @return 1 where no light shines.
 double exposure(std::span<const LightDraft> lights, std::span<const math::Box> drawn,

@@ -16,13 +16,14 @@ namespace {
 
 /// The exact bounds of a geometry's image; looks at every vertex only where the box around the
 /// image of its box would widen @p bounds.
-void addExactly(math::Box& bounds, const scene::Geometry& geometry, const math::dmat4& worldFromLocal,
-                const math::Box& loose) {
+void addExactly(math::Box& bounds, const scene::Geometry& geometry,
+                const math::dmat4& worldFromLocal, const math::Box& loose) {
     math::Box both = bounds;
     both.add(loose);
     if (!bounds.empty() && both == bounds) return;
     for (const auto& p : geometry.positions->as<std::array<float, 3>>())
-        bounds.add(math::dvec3{worldFromLocal * math::dvec4{double{p[0]}, double{p[1]}, double{p[2]}, 1.0}});
+        bounds.add(math::dvec3{worldFromLocal *
+                               math::dvec4{double{p[0]}, double{p[1]}, double{p[2]}, 1.0}});
 }
 
 template <class T>
@@ -126,7 +127,8 @@ const Node& SceneBuilder::addLights(const Node& root, std::vector<const Node*>& 
         const auto addLocal = [&](const auto& light) {
             const auto e = edit(light.core);
             e->attenuation = math::vec3{0.0F, 0.0F, 1.0F};
-            e->range = static_cast<float>(draft.range > 0.0 ? draft.range : derivedRange(intensity));
+            e->range =
+                static_cast<float>(draft.range > 0.0 ? draft.range : derivedRange(intensity));
         };
         if (draft.kind == LightDraft::Kind::directional) {
             add(scene::makeNode<scene::DirectionalLight>(aspect_, printable(draft.name)));
@@ -189,7 +191,8 @@ field::ChangeList SceneBuilder::finish(const std::string& source) {
         e->cameras.assign(refs(cameras));
         e->lights.assign(refs(lights));
         e->warnings.assign(report_.warnings());
-        e->boundsMin = bounds_.empty() ? math::dvec3{1.0} : bounds_.min;  // no infinity to trip over
+        e->boundsMin =
+            bounds_.empty() ? math::dvec3{1.0} : bounds_.min;  // no infinity to trip over
         e->boundsMax = bounds_.empty() ? math::dvec3{-1.0} : bounds_.max;
         e->trianglesDrawn = triangles_;
     }

@@ -26,8 +26,8 @@ struct CameraDraft {
     double far = 0.0;  ///< 0: so far that the scene is seen
 };
 
-/// Puts what readers find into an aspect, and closes the scene: lights above the content they light,
-/// exposure, bounds, the ImportedScene.
+/// Puts what readers find into an aspect, and closes the scene: lights above the content they
+/// light, exposure, bounds, the ImportedScene.
 class SceneBuilder {
 public:
     /// Levels of nodes that a reader may use below content(); what is left of Node::maxDepth is for
@@ -49,8 +49,9 @@ public:
     const scene::Node& addGroup(const scene::Node& parent, std::string_view name);
     /// A material and a geometry below it. Cores are shared: the same material gets the same
     /// MaterialGroup at each use. @p worldFromParent is for the bounds.
-    void addShape(const scene::Node& parent, std::string_view given, const scene::Geometry& geometry,
-                  const scene::Material& material, const math::dmat4& worldFromParent);
+    void addShape(const scene::Node& parent, std::string_view given,
+                  const scene::Geometry& geometry, const scene::Material& material,
+                  const math::dmat4& worldFromParent);
     void addLight(LightDraft light) { lights_.push_back(std::move(light)); }
     void addCamera(const CameraDraft& camera) { cameras_.push_back(camera); }
     void addAnimation(const scene::Animation& animation) { animations_.push_back(&animation); }

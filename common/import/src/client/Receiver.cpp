@@ -81,7 +81,8 @@ Result<std::vector<std::byte>> Receiver::readBlock(std::uint64_t size) {
     std::vector<std::byte> bytes;
     while (bytes.size() < size) {
         const auto have = bytes.size();
-        const auto step = std::min<std::uint64_t>(size - have, std::max<std::uint64_t>(have, firstStep));
+        const auto step =
+            std::min<std::uint64_t>(size - have, std::max<std::uint64_t>(have, firstStep));
         bytes.resize(have + static_cast<std::size_t>(step));
         const auto done = read(std::span{bytes}.subspan(have));
         if (!done) return tl::unexpected{done.error()};
@@ -97,7 +98,8 @@ Result<field::ChangeList> Receiver::receive(std::uint64_t maxBytes) {
     field::TypeRegistry types;
     scene::addTypes(types);
     if (header->types != typesDigest(types))
-        return fail(Errc::protocol, "the importer is of another version of Gnomon than this program");
+        return fail(Errc::protocol,
+                    "the importer is of another version of Gnomon than this program");
     if (header->listBytes > maxBytes || header->payloadBytes > maxBytes - header->listBytes)
         return fail(Errc::limit, "the scene is larger than the " + std::to_string(maxBytes) +
                                      " bytes it may have");
@@ -124,8 +126,8 @@ Result<field::ChangeList> Receiver::receive(std::uint64_t maxBytes) {
         if (!data) return tl::unexpected{std::move(data).error()};
         field::Payload payload{*std::move(data)};
         if (payload.hash() != hash)
-            return fail(Errc::protocol,
-                        "payload " + std::to_string(i) + " of the importer's does not have its hash");
+            return fail(Errc::protocol, "payload " + std::to_string(i) +
+                                            " of the importer's does not have its hash");
         list.payloads.push_back(std::move(payload));
     }
     std::array<std::byte, 4> end{};

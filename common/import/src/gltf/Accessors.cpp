@@ -20,12 +20,16 @@ alignas(16) constexpr std::array<std::byte, 64> zeros{};
 std::size_t componentBytes(std::uint64_t type) noexcept {
     switch (type) {
         case 5120:
-        case 5121: return 1;
+        case 5121:
+            return 1;
         case 5122:
-        case 5123: return 2;
+        case 5123:
+            return 2;
         case 5125:
-        case 5126: return 4;
-        default: return 0;
+        case 5126:
+            return 4;
+        default:
+            return 0;
     }
 }
 
@@ -59,12 +63,18 @@ void readIntegers(const std::byte* from, std::span<float> to, bool normalized) n
 void Accessor::read(std::size_t i, std::span<float> to) const noexcept {
     const std::byte* from = base_ + i * stride_;
     switch (type_) {
-        case 5120: return readIntegers<std::int8_t>(from, to, normalized_);
-        case 5121: return readIntegers<std::uint8_t>(from, to, normalized_);
-        case 5122: return readIntegers<std::int16_t>(from, to, normalized_);
-        case 5123: return readIntegers<std::uint16_t>(from, to, normalized_);
-        case 5125: return readIntegers<std::uint32_t>(from, to, normalized_);
-        default: std::memcpy(to.data(), from, to.size_bytes());
+        case 5120:
+            return readIntegers<std::int8_t>(from, to, normalized_);
+        case 5121:
+            return readIntegers<std::uint8_t>(from, to, normalized_);
+        case 5122:
+            return readIntegers<std::int16_t>(from, to, normalized_);
+        case 5123:
+            return readIntegers<std::uint16_t>(from, to, normalized_);
+        case 5125:
+            return readIntegers<std::uint32_t>(from, to, normalized_);
+        default:
+            std::memcpy(to.data(), from, to.size_bytes());
     }
 }
 
@@ -78,7 +88,8 @@ std::uint32_t Accessor::readIndex(std::size_t i) const noexcept {
 Accessor Accessors::get(std::size_t number, std::string_view use) {
     const auto& all = document_.accessors();
     if (number >= all.size())
-        refuse(fmt::format("{} is accessor {}, but there are {} accessors", use, number, all.size()));
+        refuse(
+            fmt::format("{} is accessor {}, but there are {} accessors", use, number, all.size()));
     const JsonView json{all[number]};
     Accessor accessor;
     accessor.where_ = fmt::format("accessor {} ({})", number, printable(use));
@@ -90,12 +101,12 @@ Accessor Accessors::get(std::size_t number, std::string_view use) {
     const Layout layout{.components = componentsOf(shape),
                         .elementBytes = componentsOf(shape) * componentBytes(type)};
     if (layout.elementBytes == 0)
-        wrong(fmt::format("componentType {} and type \"{}\", expected 5120-5123, 5125 or 5126 and "
-                          "SCALAR, VEC2, VEC3, VEC4 or a matrix",
-                          type, printable(shape, 30)));
+        wrong(
+            fmt::format("componentType {} and type \"{}\", expected 5120-5123, 5125 or 5126 and "
+                        "SCALAR, VEC2, VEC3, VEC4 or a matrix",
+                        type, printable(shape, 30)));
     if (!count) wrong("count is missing");
-    if (*count > 0xffffffffU)
-        wrong(fmt::format("{} elements, the limit is 4294967295", *count));
+    if (*count > 0xffffffffU) wrong(fmt::format("{} elements, the limit is 4294967295", *count));
     accessor.type_ = static_cast<std::uint32_t>(type);
     accessor.components_ = layout.components;
     accessor.count_ = static_cast<std::size_t>(*count);
@@ -131,10 +142,11 @@ void Accessors::placeDense(Accessor& accessor, const JsonView& json, const Layou
         offset + (accessor.count_ == 0 ? 0 : (accessor.count_ - 1) * stride + layout.elementBytes);
     if (end > view.bytes.size()) {
         const auto room = view.bytes.size() > offset ? view.bytes.size() - offset : 0;
-        const auto holds = room < layout.elementBytes ? 0 : (room - layout.elementBytes) / stride + 1;
-        refuse(fmt::format("{}: {} elements, but buffer view {} holds {}: {} bytes of {} are needed",
-                           accessor.where_, accessor.count_, *number, holds, end,
-                           view.bytes.size()));
+        const auto holds =
+            room < layout.elementBytes ? 0 : (room - layout.elementBytes) / stride + 1;
+        refuse(
+            fmt::format("{}: {} elements, but buffer view {} holds {}: {} bytes of {} are needed",
+                        accessor.where_, accessor.count_, *number, holds, end, view.bytes.size()));
     }
     accessor.base_ = view.bytes.data() + offset;
     accessor.stride_ = static_cast<std::size_t>(stride);

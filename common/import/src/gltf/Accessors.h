@@ -18,7 +18,9 @@ public:
     std::size_t count() const noexcept { return count_; }
     std::size_t components() const noexcept { return components_; }
     bool isFloat() const noexcept { return type_ == 5126; }
-    bool isUnsignedInteger() const noexcept { return type_ == 5121 || type_ == 5123 || type_ == 5125; }
+    bool isUnsignedInteger() const noexcept {
+        return type_ == 5121 || type_ == 5123 || type_ == 5125;
+    }
     /// "accessor 3 (POSITION)"
     const std::string& where() const noexcept { return where_; }
 

@@ -139,7 +139,8 @@ Sampled AnimationReader::sampled(const JsonView& sampler, std::size_t components
         throw Fault{times.where() + ": expected floats of type SCALAR"};
     if (times.count() == 0) throw Fault{times.where() + ": there are no keys"};
     if (times.count() > maxKeys)
-        throw Fault{fmt::format("{}: {} keys, the limit is {}", times.where(), times.count(), maxKeys)};
+        throw Fault{
+            fmt::format("{}: {} keys, the limit is {}", times.where(), times.count(), maxKeys)};
     if (values.components() != components || values.count() != times.count() * perKey)
         throw Fault{fmt::format("{}: {} elements of {} components for {} keys, expected {} of {}",
                                 values.where(), values.count(), values.components(), times.count(),
@@ -148,14 +149,16 @@ Sampled AnimationReader::sampled(const JsonView& sampler, std::size_t components
     for (std::size_t i = 0; i < out.times.size(); ++i) {
         times.read(i, std::span{&out.times[i], 1});
         if (!std::isfinite(out.times[i]) || (i > 0 && !(out.times[i] > out.times[i - 1])))
-            throw Fault{fmt::format("{}: key {} is at {}, after {}; times must be finite and ascend",
-                                    times.where(), i, out.times[i], i > 0 ? out.times[i - 1] : 0.0F)};
+            throw Fault{
+                fmt::format("{}: key {} is at {}, after {}; times must be finite and ascend",
+                            times.where(), i, out.times[i], i > 0 ? out.times[i - 1] : 0.0F)};
     }
     out.values.resize(values.count() * components);
     for (std::size_t i = 0; i < values.count(); ++i)
         values.read(i, std::span{out.values}.subspan(i * components, components));
     for (const float v : out.values)
-        if (!std::isfinite(v)) throw Fault{values.where() + ": contains a value that is not finite"};
+        if (!std::isfinite(v))
+            throw Fault{values.where() + ": contains a value that is not finite"};
     return out;
 }
 

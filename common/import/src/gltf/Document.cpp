@@ -27,12 +27,24 @@ std::uint32_t wordAt(std::span<const std::byte> bytes, std::size_t at) {
 /// What a file may require of its reader. The material extensions only refine what is drawn; those
 /// we do not draw are approximated by leaving them out.
 constexpr std::array knownExtensions = std::to_array<std::string_view>({
-    "EXT_mesh_gpu_instancing", "KHR_lights_punctual", "KHR_materials_anisotropy",
-    "KHR_materials_clearcoat", "KHR_materials_dispersion", "KHR_materials_emissive_strength",
-    "KHR_materials_ior", "KHR_materials_iridescence", "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_sheen", "KHR_materials_specular", "KHR_materials_transmission",
-    "KHR_materials_unlit", "KHR_materials_variants", "KHR_materials_volume",
-    "KHR_mesh_quantization", "KHR_texture_transform", "KHR_xmp_json_ld",
+    "EXT_mesh_gpu_instancing",
+    "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_dispersion",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+    "KHR_xmp_json_ld",
 });
 
 GltfContainer glbContainer(std::span<const std::byte> file) {
@@ -98,19 +110,20 @@ void GltfDocument::checkVersion() const {
     const auto version = asset->string("version", "");
     const auto minimum = asset->string("minVersion", version);
     if (version.substr(0, 2) != "2." || minimum.substr(0, 2) != "2.")
-        refuse(fmt::format("asset: version \"{}\"{}, expected 2.x", printable(version),
-                           minimum != version
-                               ? fmt::format(" (minVersion \"{}\")", printable(minimum))
-                               : ""));
+        refuse(fmt::format(
+            "asset: version \"{}\"{}, expected 2.x", printable(version),
+            minimum != version ? fmt::format(" (minVersion \"{}\")", printable(minimum)) : ""));
 }
 
 void GltfDocument::checkExtensions() const {
     std::string unknown;
     for (const auto& name : root_.strings("extensionsRequired")) {
         if (name == "KHR_draco_mesh_compression")
-            refuse("requires KHR_draco_mesh_compression: Draco-compressed meshes are not read; "
-                   "decompress the file first (gltf-transform copy IN OUT)");
-        if (std::find(knownExtensions.begin(), knownExtensions.end(), name) != knownExtensions.end())
+            refuse(
+                "requires KHR_draco_mesh_compression: Draco-compressed meshes are not read; "
+                "decompress the file first (gltf-transform copy IN OUT)");
+        if (std::find(knownExtensions.begin(), knownExtensions.end(), name) !=
+            knownExtensions.end())
             continue;
         unknown += (unknown.empty() ? "" : ", ") + printable(name, 60);
         if (unknown.size() > 300) break;
@@ -134,14 +147,14 @@ void GltfDocument::readBuffers() {
         } else if (i == 0 && container_.binary) {
             bytes = *container_.binary;
         } else {
-            // Extensions put their data into buffers like this (EXT_meshopt_compression's fallback);
-            // whoever uses it is told that it is empty.
+            // Extensions put their data into buffers like this (EXT_meshopt_compression's
+            // fallback); whoever uses it is told that it is empty.
             buffers_.emplace_back();
             continue;
         }
         if (bytes.size() < *declared)
-            buffer.refuse(fmt::format("byteLength is {}, but there are {} bytes", *declared,
-                                      bytes.size()));
+            buffer.refuse(
+                fmt::format("byteLength is {}, but there are {} bytes", *declared, bytes.size()));
         buffers_.push_back(bytes.subspan(0, static_cast<std::size_t>(*declared)));
     }
 }
@@ -155,8 +168,8 @@ void GltfDocument::readViews() {
         if (!buffer) view.refuse("buffer is missing");
         if (!length) view.refuse("byteLength is missing");
         if (stride && (*stride < 4 || *stride > 252 || *stride % 4 != 0))
-            view.refuse(fmt::format("byteStride is {}, expected a multiple of 4 from 4 to 252",
-                                    *stride));
+            view.refuse(
+                fmt::format("byteStride is {}, expected a multiple of 4 from 4 to 252", *stride));
         const auto whole = buffers_[*buffer];
         if (whole.empty() && *length > 0 && view.extension("EXT_meshopt_compression"))
             view.refuse("is compressed with EXT_meshopt_compression, which is not read");

@@ -40,9 +40,9 @@ public:
             const bool isRoot = parent == GltfGraph::none;
             GltfAnimated& entry = animated[number];
             entry.pose = gltfPose(json, to_.report());
-            const auto& node = to_.addTransform(isRoot ? to_.content() : *made[parent],
-                                                json.string("name", json.where()),
-                                                entry.pose.parentFromNode);
+            const auto& node =
+                to_.addTransform(isRoot ? to_.content() : *made[parent],
+                                 json.string("name", json.where()), entry.pose.parentFromNode);
             made[number] = &node;
             world[number] = math::toMatrix(entry.pose.parentFromNode);
             if (!isRoot) world[number] = world[parent] * world[number];
@@ -59,7 +59,8 @@ private:
         if (!number) return;
         const auto& shapes = meshes_.shapes(*number);
         if (shapes.empty()) return;
-        const auto name = document_.meshes()[*number].string("name", fmt::format("mesh {}", *number));
+        const auto name =
+            document_.meshes()[*number].string("name", fmt::format("mesh {}", *number));
         const auto add = [&](const scene::Node& to, const math::dmat4& worldFromTo) {
             for (const GltfShape& shape : shapes)
                 to_.addShape(to, name, *shape.geometry, *shape.material, worldFromTo);
@@ -108,8 +109,8 @@ private:
                     math::dvec3{s})}};
             const auto matrix = math::toMatrix(place);
             if (!math::isFinite(matrix)) {
-                to_.report().warn(fmt::format("{}: instance {} is not finite; left out",
-                                              json.where(), i));
+                to_.report().warn(
+                    fmt::format("{}: instance {} is not finite; left out", json.where(), i));
                 continue;
             }
             add(to_.addTransform(node, fmt::format("instance {}", i), place), world * matrix);

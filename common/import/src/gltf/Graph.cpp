@@ -22,10 +22,11 @@ Tree readTree(const GltfDocument& document) {
         tree.children[i] = nodes[i].indices("children", nodes.size(), "nodes");
         for (const auto child : tree.children[i]) {
             if (child == i) nodes[i].refuse("is its own child");
-            if (tree.parent[child] == i) nodes[child].refuse(fmt::format("is a child of node {} twice", i));
+            if (tree.parent[child] == i)
+                nodes[child].refuse(fmt::format("is a child of node {} twice", i));
             if (tree.parent[child] != none)
-                nodes[child].refuse(fmt::format("has two parents, node {} and node {}",
-                                                tree.parent[child], i));
+                nodes[child].refuse(
+                    fmt::format("has two parents, node {} and node {}", tree.parent[child], i));
             tree.parent[child] = i;
         }
     }

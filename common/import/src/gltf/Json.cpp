@@ -29,7 +29,8 @@ void checkNesting(std::string_view text) {
             inString = true;
         } else if (c == '{' || c == '[') {
             if (++depth > maxJsonDepth)
-                refuse(fmt::format("JSON: nested deeper than {} levels at byte {}", maxJsonDepth, i));
+                refuse(
+                    fmt::format("JSON: nested deeper than {} levels at byte {}", maxJsonDepth, i));
         } else if ((c == '}' || c == ']') && depth > 0) {
             --depth;
         }
@@ -62,7 +63,8 @@ json parsedJson(std::string_view text) {
     } catch (const json::exception& error) {
         std::string_view why = error.what();
         // "[json.exception.parse_error.101] parse error at ...": without the class in front.
-        if (const auto end = why.find("] "); end != std::string_view::npos) why.remove_prefix(end + 2);
+        if (const auto end = why.find("] "); end != std::string_view::npos)
+            why.remove_prefix(end + 2);
         refuse(fmt::format("JSON: {}", printable(why, 200)));
     }
     if (!parsed.is_object()) refuse("JSON: found " + shown(parsed) + ", expected an object");

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,7 +23,8 @@ nlohmann::json parsedJson(std::string_view text);
 /// getter checks type and range and refuses by throwing Failure; absent keys are their own matter.
 class JsonView {
 public:
-    JsonView(const nlohmann::json& json, std::string where) : json_{&json}, where_{std::move(where)} {}
+    JsonView(const nlohmann::json& json, std::string where)
+        : json_{&json}, where_{std::move(where)} {}
 
     const std::string& where() const noexcept { return where_; }
     bool has(const char* key) const;

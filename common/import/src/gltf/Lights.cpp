@@ -37,8 +37,8 @@ std::optional<LightDraft> GltfDevices::light(const JsonView& json) {
     else if (type == "spot")
         draft.kind = LightDraft::Kind::spot;
     else
-        return leftOut(fmt::format("type is \"{}\", expected directional, point or spot",
-                                   printable(type)));
+        return leftOut(
+            fmt::format("type is \"{}\", expected directional, point or spot", printable(type)));
     std::array<double, 3> color{1.0, 1.0, 1.0};
     json.numbers("color", color);
     draft.color = clamped({color[0], color[1], color[2]});
@@ -56,9 +56,10 @@ std::optional<LightDraft> GltfDevices::light(const JsonView& json) {
         outer = spot->number("outerConeAngle", outer);
     }
     if (!(inner >= 0.0 && inner < outer && outer <= halfPi))
-        report_.warn(fmt::format("{}: cone from {:g} to {:g} rad, expected 0 <= inner < outer <= "
-                                 "pi/2; clamped",
-                                 json.where(), inner, outer));
+        report_.warn(
+            fmt::format("{}: cone from {:g} to {:g} rad, expected 0 <= inner < outer <= "
+                        "pi/2; clamped",
+                        json.where(), inner, outer));
     draft.outerAngle = std::clamp(outer, 0.01, halfPi);
     draft.innerAngle = std::clamp(inner, 0.0, draft.outerAngle * 0.999);
     return draft;

@@ -133,8 +133,8 @@ std::optional<GltfMaterials::Slot> GltfMaterials::slot(const JsonView& parent, c
     if (!number) return {};
     const auto texture = *info->index("index", texturesJson_.size(), "textures");
     const Image found = image(*number);
-    const auto* made = textures_.texture(found.name, found.source, sampler(texturesJson_[texture]),
-                                         srgb);
+    const auto* made =
+        textures_.texture(found.name, found.source, sampler(texturesJson_[texture]), srgb);
     if (made == nullptr) return {};
     return Slot{.texture = made, .mapping = mapping(*info)};
 }
@@ -190,9 +190,10 @@ GltfMaterial GltfMaterials::make(const JsonView& json) {
         const auto found = slot(parent, key, srgb);
         if (!found) return static_cast<const Texture*>(nullptr);
         if (first && *first != found->mapping) {
-            report_.warn(fmt::format("{}: {} left out: it has other texture coordinates than the "
-                                     "material's first texture",
-                                     json.where(), key));
+            report_.warn(
+                fmt::format("{}: {} left out: it has other texture coordinates than the "
+                            "material's first texture",
+                            json.where(), key));
             return static_cast<const Texture*>(nullptr);
         }
         first = found->mapping;
@@ -205,9 +206,8 @@ GltfMaterial GltfMaterials::make(const JsonView& json) {
     }
     if (const auto* map = fitting(json, "normalTexture", false)) {
         e->normalMap = *map;
-        e->normalScale =
-            static_cast<float>(std::clamp(json.object("normalTexture")->number("scale", 1.0),
-                                          -1.0e3, 1.0e3));
+        e->normalScale = static_cast<float>(
+            std::clamp(json.object("normalTexture")->number("scale", 1.0), -1.0e3, 1.0e3));
         made.normalMap = true;
     }
     if (const auto* map = fitting(json, "emissiveTexture", true)) e->emissiveMap = *map;

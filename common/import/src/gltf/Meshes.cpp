@@ -22,8 +22,12 @@ std::vector<std::uint32_t> takenApart(std::vector<std::uint32_t> order, std::uin
     const std::size_t n = order.size();
     std::vector<std::uint32_t> out;
     switch (mode) {
-        case lines: order.resize(n / 2 * 2); return order;
-        case triangles: order.resize(n / 3 * 3); return order;
+        case lines:
+            order.resize(n / 2 * 2);
+            return order;
+        case triangles:
+            order.resize(n / 3 * 3);
+            return order;
         case lineLoop:
         case lineStrip:
             for (std::size_t i = 1; i < n; ++i) out.insert(out.end(), {order[i - 1], order[i]});
@@ -32,14 +36,15 @@ std::vector<std::uint32_t> takenApart(std::vector<std::uint32_t> order, std::uin
         case strip:
             // Every other triangle the other way round: all face the same side.
             for (std::size_t i = 2; i < n; ++i)
-                out.insert(out.end(),
-                           {order[i - 2], order[i % 2 == 0 ? i - 1 : i], order[i % 2 == 0 ? i : i - 1]});
+                out.insert(out.end(), {order[i - 2], order[i % 2 == 0 ? i - 1 : i],
+                                       order[i % 2 == 0 ? i : i - 1]});
             return out;
         case fan:
             for (std::size_t i = 2; i < n; ++i)
                 out.insert(out.end(), {order[i - 1], order[i], order[0]});
             return out;
-        default: return order;
+        default:
+            return order;
     }
 }
 
@@ -123,8 +128,8 @@ std::vector<std::uint32_t> GltfMeshes::corners(const Source& source, std::size_t
     const auto countIn = [&](std::size_t count) {
         corners_ += count;
         if (corners_ > maxCorners)
-            refuseForSize(fmt::format("{}: with it the meshes have more than {} corners", where,
-                                      maxCorners));
+            refuseForSize(
+                fmt::format("{}: with it the meshes have more than {} corners", where, maxCorners));
     };
     std::vector<std::uint32_t> order;
     if (source.indices == 0) {
@@ -196,9 +201,9 @@ const scene::Geometry* GltfMeshes::geometry(const Source& source, const std::str
     const auto used = usedVertices(order, vertices);
     mesh.indices = takenApart(std::move(order), source.mode);
     if (mesh.indices.empty()) return nullptr;
-    mesh.primitive = source.mode == points       ? scene::Primitive::points
+    mesh.primitive = source.mode == points      ? scene::Primitive::points
                      : source.mode <= lineStrip ? scene::Primitive::lines
-                                                 : scene::Primitive::triangles;
+                                                : scene::Primitive::triangles;
     mesh.positions = readVectors<math::vec3, 3>(position, used);
     if (normal) mesh.normals = readVectors<math::vec3, 3>(*normal, used);
     if (texCoord) mesh.texCoords = readVectors<math::vec2, 2>(*texCoord, used);

@@ -63,7 +63,8 @@ private:
     std::vector<std::optional<std::vector<GltfShape>>> made_;
     std::map<Source, const scene::Geometry*> geometries_;
     std::uint64_t corners_ = 0;
-    // Which vertices the present primitive uses: seenBy_[v] == present_ means yes, as renumbered_[v].
+    // Which vertices the present primitive uses: seenBy_[v] == present_ means yes, as
+    // renumbered_[v].
     std::vector<std::uint32_t> seenBy_, renumbered_;
     std::uint32_t present_ = 0;
 };

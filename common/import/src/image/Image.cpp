@@ -27,7 +27,9 @@ const stbi_uc* data(std::span<const std::byte> file) noexcept {
 
 std::uint8_t at(const Image& image, int x, int y, int channel) noexcept {
     const auto offset = (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-                         static_cast<std::size_t>(x)) * 4 + static_cast<std::size_t>(channel);
+                         static_cast<std::size_t>(x)) *
+                            4 +
+                        static_cast<std::size_t>(channel);
     return std::to_integer<std::uint8_t>(image.pixels[offset]);
 }
 
@@ -51,8 +53,8 @@ Result<ImageHeader> imageHeader(std::span<const std::byte> file) {
         return fail(Errc::file, fmt::format("no PNG, JPEG, BMP or TGA image that can be read ({})",
                                             stbi_failure_reason()));
     if (header.width <= 0 || header.height <= 0)
-        return fail(Errc::file, fmt::format("the image is {} x {} pixels", header.width,
-                                            header.height));
+        return fail(Errc::file,
+                    fmt::format("the image is {} x {} pixels", header.width, header.height));
     if (header.width > maxImageSide || header.height > maxImageSide ||
         header.decodedBytes() > maxImageBytes)
         return fail(Errc::limit,
@@ -72,8 +74,8 @@ Result<Image> decodedImage(std::span<const std::byte> file) {
     if (!pixels)
         return fail(Errc::file, fmt::format("the image is broken ({})", stbi_failure_reason()));
     image.hasAlpha = channels == 2 || channels == 4;
-    const auto bytes = static_cast<std::size_t>(image.width) *
-                       static_cast<std::size_t>(image.height) * 4;
+    const auto bytes =
+        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 4;
     image.pixels.resize(bytes);
     std::memcpy(image.pixels.data(), pixels.get(), bytes);
     return image;
@@ -84,7 +86,8 @@ ImageMean meanOf(const Image& image) {
     for (std::size_t i = 0; i + 3 < image.pixels.size(); i += 4)
         for (std::size_t c = 0; c < 3; ++c)
             sums[c] += std::to_integer<std::uint64_t>(image.pixels[i + c]);
-    const double scale = 255.0 * static_cast<double>(std::max<std::size_t>(image.pixels.size(), 4)) / 4.0;
+    const double scale =
+        255.0 * static_cast<double>(std::max<std::size_t>(image.pixels.size(), 4)) / 4.0;
     return {.red = static_cast<double>(sums[0]) / scale,
             .green = static_cast<double>(sums[1]) / scale,
             .blue = static_cast<double>(sums[2]) / scale};
@@ -114,9 +117,8 @@ Image normalsFromHeights(const Image& heights, float scale) {
             const float dx = (height(x + 1, y) - height(x - 1, y)) * 0.5F * scale;
             const float dy = (height(x, y - 1) - height(x, y + 1)) * 0.5F * scale;
             const float length = std::sqrt(dx * dx + dy * dy + 1.0F);
-            normals.pixels.insert(normals.pixels.end(),
-                                  {packed(-dx / length), packed(-dy / length),
-                                   packed(1.0F / length), std::byte{255}});
+            normals.pixels.insert(normals.pixels.end(), {packed(-dx / length), packed(-dy / length),
+                                                         packed(1.0F / length), std::byte{255}});
         }
     }
     return normals;
@@ -128,8 +130,11 @@ void putAlpha(Image& image, const Image& mask) {
         const int maskY = static_cast<int>(std::int64_t{y} * mask.height / image.height);
         for (int x = 0; x < image.width; ++x) {
             const int maskX = static_cast<int>(std::int64_t{x} * mask.width / image.width);
-            const auto offset = (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-                                 static_cast<std::size_t>(x)) * 4 + 3;
+            const auto offset =
+                (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                 static_cast<std::size_t>(x)) *
+                    4 +
+                3;
             image.pixels[offset] = std::byte{at(mask, maskX, maskY, channel)};
         }
     }

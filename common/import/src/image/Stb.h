@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-/// stb_image's allocations: one that is larger than any image we accept needs fails, so that a small
-/// file that inflates without end stops early.
+/// stb_image's allocations: one that is larger than any image we accept needs fails, so that a
+/// small file that inflates without end stops early.
 namespace gnomon::importer {
 void* stbAllocate(std::size_t bytes) noexcept;
 void* stbResize(void* old, std::size_t bytes) noexcept;

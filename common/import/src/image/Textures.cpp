@@ -36,7 +36,8 @@ const Textures::Pixels& Textures::pixels(const std::string& name, const Maker& m
 
 const scene::Texture* Textures::texture(const std::string& name, const ImageSource& source,
                                         const Sampler& sampler, bool srgb) {
-    return madeTexture(name, [&] { return image(name, source); }, sampler, srgb);
+    return madeTexture(
+        name, [&] { return image(name, source); }, sampler, srgb);
 }
 
 const scene::Texture* Textures::madeTexture(const std::string& name, const Maker& make,

@@ -40,8 +40,7 @@ Result<Bytes> readRegularFile(const std::filesystem::path& path, std::uint64_t l
     while (got < bytes.size()) {
         const auto count = ::read(file.fd, bytes.data() + got, bytes.size() - got);
         if (count < 0 && errno == EINTR) continue;
-        if (count < 0)
-            return fail(Errc::file, "cannot be read", {errno, std::generic_category()});
+        if (count < 0) return fail(Errc::file, "cannot be read", {errno, std::generic_category()});
         if (count == 0) break;  // became shorter meanwhile
         got += static_cast<std::size_t>(count);
     }
@@ -68,8 +67,8 @@ Result<std::filesystem::path> Folder::locate(std::string_view name) const {
     std::error_code ec;
     auto whole = std::filesystem::weakly_canonical(folder_ / relative, ec);
     if (ec) return refused(ec.message());
-    const auto [end, rest] = std::mismatch(folder_.begin(), folder_.end(), whole.begin(),
-                                           whole.end());
+    const auto [end, rest] =
+        std::mismatch(folder_.begin(), folder_.end(), whole.begin(), whole.end());
     if (end != folder_.end() || rest == whole.end())
         return refused("it leads out of the model's folder");
     return whole;

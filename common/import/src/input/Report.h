@@ -12,9 +12,7 @@
 namespace gnomon::importer {
 
 /// Ends the import: the file cannot be used. main() prints the sentence behind the file's name.
-[[noreturn]] inline void refuse(std::string what) {
-    throw Failure{Errc::file, std::move(what)};
-}
+[[noreturn]] inline void refuse(std::string what) { throw Failure{Errc::file, std::move(what)}; }
 [[noreturn]] inline void refuseForSize(std::string what) {
     throw Failure{Errc::limit, std::move(what)};
 }

@@ -12,7 +12,8 @@ std::optional<double> parsedNumber(std::string_view token) {
     const auto [at, ec] = std::from_chars(token.data(), end, value);
     if (at != end || token.empty() || ec == std::errc::invalid_argument) return {};
     // Too large or too small: strtod tells which.
-    if (ec == std::errc::result_out_of_range) return std::strtod(std::string{token}.c_str(), nullptr);
+    if (ec == std::errc::result_out_of_range)
+        return std::strtod(std::string{token}.c_str(), nullptr);
     return value;
 }
 

@@ -54,8 +54,9 @@ Result<std::string> percentDecoded(std::string_view text) {
         const int high = i + 2 < text.size() ? hexDigit(text[i + 1]) : -1;
         const int low = i + 2 < text.size() ? hexDigit(text[i + 2]) : -1;
         if (high < 0 || low < 0)
-            return fail(Errc::file, fmt::format("\"{}\": % is not followed by two hexadecimal digits",
-                                                printable(text)));
+            return fail(Errc::file,
+                        fmt::format("\"{}\": % is not followed by two hexadecimal digits",
+                                    printable(text)));
         out.push_back(static_cast<char>(high * 16 + low));
         i += 2;
     }

@@ -34,7 +34,8 @@ void dropUnusable(MeshData& mesh, Report& report, std::string_view where) {
     const std::size_t count = mesh.indices.size() / corners;
     for (std::size_t i = 0; i < count; ++i) {
         bool whole = true;
-        for (std::size_t k = 0; k < corners; ++k) whole = whole && good[mesh.indices[i * corners + k]];
+        for (std::size_t k = 0; k < corners; ++k)
+            whole = whole && good[mesh.indices[i * corners + k]];
         if (!whole) continue;
         for (std::size_t k = 0; k < corners; ++k)
             mesh.indices[kept * corners + k] = mesh.indices[i * corners + k];
@@ -42,10 +43,13 @@ void dropUnusable(MeshData& mesh, Report& report, std::string_view where) {
     }
     mesh.indices.resize(kept * corners);
     if (kept < count)
-        report.warn(fmt::format("{}: {} of {} {} dropped: positions that are not finite or beyond {:g}",
-                                where, count - kept, count,
-                                corners == 3 ? "triangles" : corners == 2 ? "lines" : "points",
-                                largestCoordinate));
+        report.warn(
+            fmt::format("{}: {} of {} {} dropped: positions that are not finite or beyond {:g}",
+                        where, count - kept, count,
+                        corners == 3   ? "triangles"
+                        : corners == 2 ? "lines"
+                                       : "points",
+                        largestCoordinate));
     // What no primitive uses still gets compared and hashed.
     for (std::size_t i = 0; i < good.size(); ++i)
         if (!good[i]) mesh.positions[i] = math::vec3{0.0F};
@@ -74,8 +78,8 @@ void shareEqualVertices(MeshData& mesh) {
         if (!mesh.texCoords.empty()) hash.addObject(mesh.texCoords[v] + math::vec2{0.0F});
         if (!mesh.tangents.empty()) hash.addObject(mesh.tangents[v] + math::vec4{0.0F});
         if (!mesh.colors.empty()) hash.addObject(mesh.colors[v]);
-        first[v] = index.findOrAdd(hash.value(), v,
-                                   [&](std::uint32_t other) { return equal(other, v); });
+        first[v] =
+            index.findOrAdd(hash.value(), v, [&](std::uint32_t other) { return equal(other, v); });
     }
     for (auto& i : mesh.indices) i = first[i];
 }
@@ -108,7 +112,8 @@ void orderVertices(MeshData& mesh) {
 
 template <class T>
 field::Payload payloadOf(const std::vector<T>& values) {
-    // Payload::of asks for trivially copyable items; GLM's are not in name, but plain floats in fact.
+    // Payload::of asks for trivially copyable items; GLM's are not in name, but plain floats in
+    // fact.
     const auto* raw = reinterpret_cast<const std::byte*>(values.data());
     if (values.empty()) return {};
     return field::Payload{Bytes(raw, raw + values.size() * sizeof(T))};

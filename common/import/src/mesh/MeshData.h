@@ -27,9 +27,12 @@ struct MeshData {
 /// Corners of one primitive.
 constexpr std::size_t cornersOf(scene::Primitive primitive) noexcept {
     switch (primitive) {
-        case scene::Primitive::points: return 1;
-        case scene::Primitive::lines: return 2;
-        default: return 3;
+        case scene::Primitive::points:
+            return 1;
+        case scene::Primitive::lines:
+            return 2;
+        default:
+            return 3;
     }
 }
 

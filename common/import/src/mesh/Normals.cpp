@@ -91,9 +91,9 @@ void addFlatNormals(MeshData& mesh) {
     mesh.normals.assign(mesh.positions.size(), anyNormal);
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         const auto* c = &mesh.indices[i];
-        const auto normal = unitOr(areaNormal(mesh.positions[c[0]], mesh.positions[c[1]],
-                                              mesh.positions[c[2]]),
-                                   anyNormal);
+        const auto normal =
+            unitOr(areaNormal(mesh.positions[c[0]], mesh.positions[c[1]], mesh.positions[c[2]]),
+                   anyNormal);
         for (std::size_t k = 0; k < 3; ++k) mesh.normals[c[k]] = normal;
     }
 }
@@ -109,8 +109,8 @@ void repairNormals(MeshData& mesh) {
     if (mesh.primitive == scene::Primitive::triangles) {
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
             const auto* c = &mesh.indices[i];
-            const auto normal = areaNormal(mesh.positions[c[0]], mesh.positions[c[1]],
-                                           mesh.positions[c[2]]);
+            const auto normal =
+                areaNormal(mesh.positions[c[0]], mesh.positions[c[1]], mesh.positions[c[2]]);
             for (std::size_t k = 0; k < 3; ++k) sums[c[k]] += normal;
         }
     }

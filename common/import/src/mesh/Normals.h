@@ -10,7 +10,8 @@
 
 namespace gnomon::importer {
 
-/// Cosine of the angle between two faces from which on the edge between them is a sharp one: 60 deg.
+/// Cosine of the angle between two faces from which on the edge between them is a sharp one: 60
+/// deg.
 inline constexpr float creaseCosine = 0.5F;
 
 /// Smooth normals, one for each corner of each triangle: the area-weighted mean of the faces around

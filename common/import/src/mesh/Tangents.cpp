@@ -88,8 +88,8 @@ void addTangents(MeshData& mesh) {
 void repairTangents(MeshData& mesh) {
     for (std::size_t v = 0; v < mesh.tangents.size(); ++v) {
         auto& t = mesh.tangents[v];
-        const auto other = mesh.normals.empty() ? math::vec3{1.0F, 0.0F, 0.0F}
-                                                : anyOrthogonal(mesh.normals[v]);
+        const auto other =
+            mesh.normals.empty() ? math::vec3{1.0F, 0.0F, 0.0F} : anyOrthogonal(mesh.normals[v]);
         const auto direction = unitOr(math::dvec3{t.x, t.y, t.z}, other);
         t = math::vec4{direction, t.w < 0.0F ? -1.0F : 1.0F};
     }

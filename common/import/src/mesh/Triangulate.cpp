@@ -93,8 +93,8 @@ private:
         return true;
     }
 
-    /// Corners looked at before the rest is cut as a fan. A simple polygon of the largest size needs
-    /// about a quarter of it; one made to be slow would need its number of corners cubed.
+    /// Corners looked at before the rest is cut as a fan. A simple polygon of the largest size
+    /// needs about a quarter of it; one made to be slow would need its number of corners cubed.
     static constexpr std::uint64_t maxWork = 200'000'000;
 
     std::vector<math::dvec2> points_;

@@ -61,14 +61,15 @@ void readObj(std::span<const std::byte> bytes, Folder& folder, SceneBuilder& to)
     std::size_t first = 0;  // of the part's corners among all
     for (std::size_t i = 0; i < file.parts.size(); ++i) {
         ObjPart& part = file.parts[i];
-        to.report().progress(0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(file.parts.size()),
-                             "building");
+        to.report().progress(
+            0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(file.parts.size()),
+            "building");
         const auto name = part.name.empty() ? fmt::format("part {}", i) : part.name;
         const auto& material = materials.get(part.material);
         const auto add = [&](MeshData mesh) {
-            if (const auto* geometry =
-                    buildGeometry(to.aspect(), std::move(mesh), static_cast<bool>(*material.normalMap),
-                                  to.report(), "\"" + printable(name) + "\""))
+            if (const auto* geometry = buildGeometry(to.aspect(), std::move(mesh),
+                                                     static_cast<bool>(*material.normalMap),
+                                                     to.report(), "\"" + printable(name) + "\""))
                 to.addShape(to.content(), name, *geometry, material, math::dmat4{1.0});
         };
         MeshData mesh = meshOf(file, part.triangles, scene::Primitive::triangles);

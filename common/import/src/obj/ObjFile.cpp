@@ -98,7 +98,8 @@ std::optional<ObjCorner> ObjParser::readCorner(std::string_view token) const {
         if (!number.empty()) {
             const auto value = parsedInteger(number);
             if (!value || *value == 0) return {};
-            const auto index = *value > 0 ? *value - 1 : static_cast<std::int64_t>(counts[i]) + *value;
+            const auto index =
+                *value > 0 ? *value - 1 : static_cast<std::int64_t>(counts[i]) + *value;
             if (index < 0 || index >= std::int64_t{ObjCorner::none}) return {};
             *to[i] = static_cast<std::uint32_t>(index);
         } else if (i == 0) {
@@ -114,8 +115,9 @@ std::uint32_t ObjParser::partNow() {
     if (part_) return *part_;
     const std::string& name = hasObjects_ ? object_ : group_;
     const bool crowded = partNumbers_.size() >= maxParts;
-    const auto [at, added] = partNumbers_.try_emplace({crowded ? std::string{} : name, material_},
-                                                      static_cast<std::uint32_t>(file_.parts.size()));
+    const auto [at, added] =
+        partNumbers_.try_emplace({crowded ? std::string{} : name, material_},
+                                 static_cast<std::uint32_t>(file_.parts.size()));
     if (added) file_.parts.push_back({.name = at->first.first, .material = material_});
     part_ = at->second;
     return *part_;
@@ -123,17 +125,18 @@ std::uint32_t ObjParser::partNow() {
 
 void ObjParser::leftOut(std::size_t line, std::string_view why) {
     // The first one is named; more are counted.
-    if (++faults_ == 1)
-        report_.warn(fmt::format("line {}: {}; left out", line, why));
+    if (++faults_ == 1) report_.warn(fmt::format("line {}: {}; left out", line, why));
 }
 
 void ObjParser::readElement(std::string_view rest, char kind) {
-    Element element{.first = corners_.size(), .line = lines_.number(), .part = partNow(), .kind = kind};
+    Element element{
+        .first = corners_.size(), .line = lines_.number(), .part = partNow(), .kind = kind};
     for (auto token = nextToken(rest); !token.empty(); token = nextToken(rest)) {
         const auto corner = readCorner(token);
         if (!corner) {
             corners_.resize(element.first);
-            return leftOut(lines_.number(), fmt::format("\"{}\" names no vertex", printable(token, 40)));
+            return leftOut(lines_.number(),
+                           fmt::format("\"{}\" names no vertex", printable(token, 40)));
         }
         corners_.push_back(*corner);
     }
@@ -149,7 +152,8 @@ void ObjParser::readLine(std::string_view line) {
     } else if (keyword_ == "vt") {
         std::array<double, 2> t{};
         readNumbers(line, 1, t);
-        file_.texCoords.emplace_back(math::dvec2{t[0], 1.0 - t[1]});  // OBJ: v = 0 is the bottom row
+        file_.texCoords.emplace_back(
+            math::dvec2{t[0], 1.0 - t[1]});  // OBJ: v = 0 is the bottom row
     } else if (keyword_ == "vn") {
         std::array<double, 3> n{};
         readNumbers(line, 3, n);
@@ -179,11 +183,13 @@ bool ObjParser::inRange(const ObjCorner& c) const noexcept {
 }
 
 void ObjParser::finish(const Element& element) {
-    const std::span corners = std::span{corners_}.subspan(element.first, element.last - element.first);
+    const std::span corners =
+        std::span{corners_}.subspan(element.first, element.last - element.first);
     for (const auto& corner : corners)
         if (!inRange(corner))
-            return leftOut(element.line, "names a vertex, texture coordinate or normal that does "
-                                         "not exist");
+            return leftOut(element.line,
+                           "names a vertex, texture coordinate or normal that does "
+                           "not exist");
     ObjPart& part = file_.parts[element.part];
     if (element.kind == 'p') {
         part.points.insert(part.points.end(), corners.begin(), corners.end());
@@ -220,7 +226,8 @@ ObjFile ObjParser::parse() {
     if (!file_.colors.empty())
         file_.colors.resize(file_.positions.size(), Color8{255, 255, 255, 255});
     for (const Element& element : elements_) finish(element);
-    if (faults_ > 1) report_.warn(fmt::format("{} faces, lines or points left out in all", faults_));
+    if (faults_ > 1)
+        report_.warn(fmt::format("{} faces, lines or points left out in all", faults_));
     if (elements_.empty()) report_.warn("there are vertices, but no faces, lines or points");
     return std::move(file_);
 }

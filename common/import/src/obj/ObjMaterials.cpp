@@ -104,8 +104,8 @@ void ObjMaterials::setNormals(const MtlMaterial& from, PhongMaterial& to) {
                 // Heights are grey; many files name a normal map here.
                 if (image && isGrey(*image)) {
                     constexpr float heightsPerTexel = 4.0F;  // what -bm 1 looks like elsewhere
-                    return normalsFromHeights(*image, heightsPerTexel *
-                                                          static_cast<float>(from.bumpScale));
+                    return normalsFromHeights(*image,
+                                              heightsPerTexel * static_cast<float>(from.bumpScale));
                 }
                 return image;
             },
@@ -121,7 +121,8 @@ const PhongMaterial& ObjMaterials::get(const std::string& name) {
     const auto found = library_.find(name);
     if (found == library_.end()) {
         if (!name.empty())
-            report_.warn(fmt::format("material \"{}\" is not defined; drawn grey", printable(name)));
+            report_.warn(
+                fmt::format("material \"{}\" is not defined; drawn grey", printable(name)));
         return *made;
     }
     const MtlMaterial& from = found->second;

@@ -37,8 +37,8 @@ math::dmat4 matrix(const aiMatrix4x4& m) {
 /// A rotation whose -z axis is @p direction.
 math::Affine towards(const math::vec3& direction, const math::vec3& position) {
     const math::vec3 z = unitOr(-math::dvec3{direction}, math::vec3{0.0F, 0.0F, 1.0F});
-    const math::vec3 up = std::abs(z.y) < 0.99F ? math::vec3{0.0F, 1.0F, 0.0F}
-                                                : math::vec3{1.0F, 0.0F, 0.0F};
+    const math::vec3 up =
+        std::abs(z.y) < 0.99F ? math::vec3{0.0F, 1.0F, 0.0F} : math::vec3{1.0F, 0.0F, 0.0F};
     const math::vec3 x = glm::normalize(glm::cross(up, z));
     return {.translation = math::dvec3{position}, .linear = math::mat3{x, glm::cross(z, x), z}};
 }
@@ -131,12 +131,14 @@ std::optional<LightDraft> AssimpReader::light(const aiLight& from) const {
     constexpr double halfPi = 1.5707963267948966;
     if (draft.kind == LightDraft::Kind::spot) {  // Assimp has whole angles
         draft.outerAngle = std::clamp(double{from.mAngleOuterCone} * 0.5, 0.01, halfPi);
-        draft.innerAngle = std::clamp(double{from.mAngleInnerCone} * 0.5, 0.0, draft.outerAngle * 0.999);
+        draft.innerAngle =
+            std::clamp(double{from.mAngleInnerCone} * 0.5, 0.0, draft.outerAngle * 0.999);
     }
     return draft;
 }
 
-void AssimpReader::addContents(const aiNode& from, const scene::Node& node, const math::dmat4& world) {
+void AssimpReader::addContents(const aiNode& from, const scene::Node& node,
+                               const math::dmat4& world) {
     for (unsigned i = 0; i < from.mNumMeshes; ++i) {
         const unsigned number = from.mMeshes[i];
         if (number >= scene_.mNumMeshes) refuse(fmt::format("a node names mesh {}", number));
@@ -195,7 +197,8 @@ void readWithAssimp(const std::filesystem::path& file, Folder& folder, SceneBuil
     Assimp::Importer importer;
     importer.SetIOHandler(std::make_unique<AssimpFiles>(file, folder).release());  // now its own
     // Cameras have no use here; components that are removed need not be checked.
-    importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_CAMERAS | aiComponent_ANIMATIONS);
+    importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
+                                aiComponent_CAMERAS | aiComponent_ANIMATIONS);
     to.report().progress(0.1, "reading");
     const aiScene* scene = importer.ReadFile(
         file.string(), aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenUVCoords |

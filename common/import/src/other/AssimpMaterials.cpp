@@ -1,7 +1,8 @@
 #include "other/AssimpMaterials.h"
 
-#include <algorithm>
 #include <assimp/GltfMaterial.h>
+
+#include <algorithm>
 
 #include "build/Phong.h"
 
@@ -46,7 +47,8 @@ const scene::Texture* AssimpMaterials::texture(const aiMaterial& material, aiTex
                                                bool srgb) {
     aiString path;
     aiTextureMapMode modes[2] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
-    if (material.GetTexture(type, 0, &path, nullptr, nullptr, nullptr, nullptr, modes) != AI_SUCCESS)
+    if (material.GetTexture(type, 0, &path, nullptr, nullptr, nullptr, nullptr, modes) !=
+        AI_SUCCESS)
         return nullptr;
     const auto wrap = [](aiTextureMapMode mode) {
         if (mode == aiTextureMapMode_Mirror) return scene::Texture::Wrap::mirror;
@@ -62,12 +64,14 @@ const scene::Texture* AssimpMaterials::texture(const aiMaterial& material, aiTex
             if (embedded->mWidth > static_cast<unsigned>(maxImageSide) ||
                 embedded->mHeight > static_cast<unsigned>(maxImageSide))
                 return nullptr;
-            return textures_.madeTexture(label, [&] { return embeddedImage(*embedded); }, sampler, srgb);
+            return textures_.madeTexture(
+                label, [&] { return embeddedImage(*embedded); }, sampler, srgb);
         }
         const auto bytes = std::as_bytes(std::span{reinterpret_cast<const char*>(embedded->pcData),
                                                    std::size_t{embedded->mWidth}});
         return textures_.texture(
-            label, [bytes]() -> Result<ImageFile> { return ImageFile{.bytes = bytes}; }, sampler, srgb);
+            label, [bytes]() -> Result<ImageFile> { return ImageFile{.bytes = bytes}; }, sampler,
+            srgb);
     }
     return textures_.texture(
         label,
@@ -102,7 +106,8 @@ void AssimpMaterials::read(const aiMaterial& from, PhongMaterial& to) {
         const double shininess = double{floatOf(from, AI_MATKEY_SHININESS).value_or(0.0F)};
         to.shininess = clamped(math::dvec3{std::max(shininess, 2.0)}, 2048.0).x;
     }
-    to.emissive = clamped(colorOf(from, AI_MATKEY_COLOR_EMISSIVE).value_or(math::dvec3{0.0}), 1.0e4);
+    to.emissive =
+        clamped(colorOf(from, AI_MATKEY_COLOR_EMISSIVE).value_or(math::dvec3{0.0}), 1.0e4);
     int twoSided = 0;
     if (from.Get(AI_MATKEY_TWOSIDED, twoSided) == AI_SUCCESS) to.doubleSided = twoSided != 0;
     const auto* map = texture(from, aiTextureType_BASE_COLOR, true);

@@ -26,11 +26,28 @@ enum Role : std::size_t { px, py, pz, nx, ny, nz, tu, tv, red, green, blue, alph
 
 std::optional<Role> roleOf(std::string_view name) {
     static constexpr auto names = std::to_array<std::pair<std::string_view, Role>>({
-        {"x", px}, {"y", py}, {"z", pz}, {"nx", nx}, {"ny", ny}, {"nz", nz},
-        {"s", tu}, {"t", tv}, {"u", tu}, {"v", tv}, {"texture_u", tu}, {"texture_v", tv},
-        {"red", red}, {"green", green}, {"blue", blue}, {"alpha", alpha},
-        {"diffuse_red", red}, {"diffuse_green", green}, {"diffuse_blue", blue},
-        {"r", red}, {"g", green}, {"b", blue},
+        {"x", px},
+        {"y", py},
+        {"z", pz},
+        {"nx", nx},
+        {"ny", ny},
+        {"nz", nz},
+        {"s", tu},
+        {"t", tv},
+        {"u", tu},
+        {"v", tv},
+        {"texture_u", tu},
+        {"texture_v", tv},
+        {"red", red},
+        {"green", green},
+        {"blue", blue},
+        {"alpha", alpha},
+        {"diffuse_red", red},
+        {"diffuse_green", green},
+        {"diffuse_blue", blue},
+        {"r", red},
+        {"g", green},
+        {"b", blue},
     });
     for (const auto& [text, role] : names)
         if (text == name) return role;
@@ -53,9 +70,9 @@ public:
 
     MeshData read() {
         for (const PlyElement& element : header_.elements) {
-            report_.progress(0.5 * (1.0 - static_cast<double>(body_.left()) /
-                                              static_cast<double>(text_.size())),
-                             "parsing " + element.name);
+            report_.progress(
+                0.5 * (1.0 - static_cast<double>(body_.left()) / static_cast<double>(text_.size())),
+                "parsing " + element.name);
             if (element.properties.empty()) continue;
             if (element.name == "vertex")
                 readVertices(element);
@@ -126,7 +143,8 @@ void PlyReader::readVertices(const PlyElement& element) {
         // v = 0 is the bottom row, as in the programs that write texture coordinates to PLY.
         if (textured) mesh_.texCoords.emplace_back(math::dvec2{v[tu], 1.0 - v[tv]});
         if (colored)
-            mesh_.colors.push_back({byteOf(linearFromSrgb(v[red])), byteOf(linearFromSrgb(v[green])),
+            mesh_.colors.push_back({byteOf(linearFromSrgb(v[red])),
+                                    byteOf(linearFromSrgb(v[green])),
                                     byteOf(linearFromSrgb(v[blue])), byteOf(v[alpha])});
     }
 }
@@ -151,7 +169,8 @@ void PlyReader::readList(const PlyElement& element, const PlyProperty& property,
     const bool strip = element.name == "tristrips";
     const auto length = body_.listLength(property);
     if (!strip && length > maxPolygonCorners)
-        body_.refuse(fmt::format("a face of {} corners, the limit is {}", length, maxPolygonCorners));
+        body_.refuse(
+            fmt::format("a face of {} corners, the limit is {}", length, maxPolygonCorners));
     for (std::size_t k = 0; k < length; ++k) {
         const double value = body_.value(property.type);
         if (!(std::abs(value) <= 4294967295.0) || value != std::floor(value))
@@ -192,7 +211,8 @@ void PlyReader::addStrips(std::span<const std::int64_t> items) {
         const bool even = (i - first) % 2 == 0;
         const std::array<std::int64_t, 3> t{items[i - 2], even ? items[i - 1] : items[i],
                                             even ? items[i] : items[i - 1]};
-        if (*std::min_element(t.begin(), t.end()) < 0 || *std::max_element(t.begin(), t.end()) >= vertices)
+        if (*std::min_element(t.begin(), t.end()) < 0 ||
+            *std::max_element(t.begin(), t.end()) >= vertices)
             ++dropped_;
         else
             for (const auto v : t) mesh_.indices.push_back(static_cast<std::uint32_t>(v));
@@ -226,9 +246,10 @@ void PlyReader::finishFaces() {
             ++dropped_;
     }
     if (dropped_ > 0)
-        report_.warn(fmt::format("{} faces left out: fewer than three corners, or vertices that do "
-                                 "not exist ({} do)",
-                                 dropped_, mesh_.positions.size()));
+        report_.warn(
+            fmt::format("{} faces left out: fewer than three corners, or vertices that do "
+                        "not exist ({} do)",
+                        dropped_, mesh_.positions.size()));
 }
 
 }  // namespace
@@ -239,8 +260,8 @@ void readPly(std::span<const std::byte> file, Folder& folder, SceneBuilder& to) 
     to.useLevels(2);
     ObjMaterials materials{to.aspect(), folder, to.report()};
     const auto& texture = reader.header().texture;
-    const auto& material = texture.empty() || mesh.texCoords.empty() ? materials.get("")
-                                                                     : materials.textured(texture);
+    const auto& material =
+        texture.empty() || mesh.texCoords.empty() ? materials.get("") : materials.textured(texture);
     to.report().progress(0.5, "building");
     if (mesh.primitive == scene::Primitive::triangles && mesh.normals.empty()) {
         auto normals = creasedNormals(mesh.positions, mesh.indices);

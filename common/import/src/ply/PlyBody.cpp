@@ -24,28 +24,36 @@ double loaded(const std::array<char, 8>& bytes) noexcept {
 }  // namespace
 
 void PlyBody::refuse(const std::string& what) const {
-    importer::refuse(fmt::format("{} {}: {}", element_ != nullptr ? printable(element_->name, 40) : "?",
-                                 number_, what));
+    importer::refuse(fmt::format(
+        "{} {}: {}", element_ != nullptr ? printable(element_->name, 40) : "?", number_, what));
 }
 
 double PlyBody::binary(PlyType type) {
     const auto size = bytesOf(type);
-    if (rest_.size() < size) refuse(fmt::format("the file ends within it ({} elements expected)",
-                                                element_->count));
+    if (rest_.size() < size)
+        refuse(fmt::format("the file ends within it ({} elements expected)", element_->count));
     std::array<char, 8> bytes{};
     std::copy_n(rest_.begin(), size, bytes.begin());
     rest_.remove_prefix(size);
     if (format_ == PlyHeader::Format::bigEndian)
         std::reverse(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
     switch (type) {
-        case PlyType::i8: return loaded<std::int8_t>(bytes);
-        case PlyType::u8: return loaded<std::uint8_t>(bytes);
-        case PlyType::i16: return loaded<std::int16_t>(bytes);
-        case PlyType::u16: return loaded<std::uint16_t>(bytes);
-        case PlyType::i32: return loaded<std::int32_t>(bytes);
-        case PlyType::u32: return loaded<std::uint32_t>(bytes);
-        case PlyType::f32: return loaded<float>(bytes);
-        default: return loaded<double>(bytes);
+        case PlyType::i8:
+            return loaded<std::int8_t>(bytes);
+        case PlyType::u8:
+            return loaded<std::uint8_t>(bytes);
+        case PlyType::i16:
+            return loaded<std::int16_t>(bytes);
+        case PlyType::u16:
+            return loaded<std::uint16_t>(bytes);
+        case PlyType::i32:
+            return loaded<std::int32_t>(bytes);
+        case PlyType::u32:
+            return loaded<std::uint32_t>(bytes);
+        case PlyType::f32:
+            return loaded<float>(bytes);
+        default:
+            return loaded<double>(bytes);
     }
 }
 

@@ -16,11 +16,21 @@ constexpr std::size_t maxHeaderLines = 1000;
 
 std::optional<PlyType> typeNamed(std::string_view name) {
     static constexpr auto names = std::to_array<std::pair<std::string_view, PlyType>>({
-        {"char", PlyType::i8},    {"int8", PlyType::i8},    {"uchar", PlyType::u8},
-        {"uint8", PlyType::u8},   {"short", PlyType::i16},  {"int16", PlyType::i16},
-        {"ushort", PlyType::u16}, {"uint16", PlyType::u16}, {"int", PlyType::i32},
-        {"int32", PlyType::i32},  {"uint", PlyType::u32},   {"uint32", PlyType::u32},
-        {"float", PlyType::f32},  {"float32", PlyType::f32}, {"double", PlyType::f64},
+        {"char", PlyType::i8},
+        {"int8", PlyType::i8},
+        {"uchar", PlyType::u8},
+        {"uint8", PlyType::u8},
+        {"short", PlyType::i16},
+        {"int16", PlyType::i16},
+        {"ushort", PlyType::u16},
+        {"uint16", PlyType::u16},
+        {"int", PlyType::i32},
+        {"int32", PlyType::i32},
+        {"uint", PlyType::u32},
+        {"uint32", PlyType::u32},
+        {"float", PlyType::f32},
+        {"float32", PlyType::f32},
+        {"double", PlyType::f64},
         {"float64", PlyType::f64},
     });
     for (const auto& [text, type] : names)
@@ -114,11 +124,15 @@ private:
 std::size_t bytesOf(PlyType type) noexcept {
     switch (type) {
         case PlyType::i8:
-        case PlyType::u8: return 1;
+        case PlyType::u8:
+            return 1;
         case PlyType::i16:
-        case PlyType::u16: return 2;
-        case PlyType::f64: return 8;
-        default: return 4;
+        case PlyType::u16:
+            return 2;
+        case PlyType::f64:
+            return 8;
+        default:
+            return 4;
     }
 }
 
@@ -141,8 +155,9 @@ PlyHeader parsedPlyHeader(std::string_view file) {
     for (const auto& element : header.elements) {
         const auto least = element.leastBytes(header.format == PlyHeader::Format::ascii);
         if (least > 0 && element.count > (left - needed) / least)
-            refuse(fmt::format("header: {} elements \"{}\" of at least {} bytes, but {} bytes follow",
-                               element.count, printable(element.name, 40), least, left - 1));
+            refuse(
+                fmt::format("header: {} elements \"{}\" of at least {} bytes, but {} bytes follow",
+                            element.count, printable(element.name, 40), least, left - 1));
         needed += element.count * least;
     }
     return header;

@@ -12,8 +12,7 @@ std::string usage() {
 
 Result<ProgramOptions> parsedOptions(int count, const char* const* arguments) {
     ProgramOptions options;
-    const auto number = [](std::string_view name, std::string_view text,
-                           auto& to) -> Result<void> {
+    const auto number = [](std::string_view name, std::string_view text, auto& to) -> Result<void> {
         const auto [end, ec] = std::from_chars(text.data(), text.data() + text.size(), to);
         if (ec != std::errc{} || end != text.data() + text.size() || to == 0)
             return fail(Errc::config, std::string{name} + ": \"" + std::string{text} +
@@ -35,7 +34,8 @@ Result<ProgramOptions> parsedOptions(int count, const char* const* arguments) {
                 return fail(Errc::config, std::string{argument} + ": its value is missing");
             Result<void> done;
             if (argument == "--output") options.output = arguments[i];
-            if (argument == "--max-memory") done = number(argument, arguments[i], options.maxMemory);
+            if (argument == "--max-memory")
+                done = number(argument, arguments[i], options.maxMemory);
             if (argument == "--max-time") done = number(argument, arguments[i], options.maxTime);
             if (!done) return tl::unexpected{done.error()};
             continue;

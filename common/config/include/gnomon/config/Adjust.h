@@ -11,7 +11,8 @@ namespace gnomon::config {
 Result<Config> withTileSize(const Config& config, int width, int height);
 
 /// The same wall as local processes: every host is localhost, with a port and a GPU of the
-/// system's choice, no full screen, windows arranged().
+/// system's choice, no full screen, windows arranged(), and a sync timeout of at least a quarter of
+/// a second a server.
 Config localized(const Config& config);
 
 /// Windows placed on the desktop as their tiles lie on the wall: screens side by side, of each

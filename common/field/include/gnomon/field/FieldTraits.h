@@ -47,6 +47,14 @@ struct FieldTraits<Ref<T>> {
     static Ref<T> read(Reader& from) { return Ref<T>{from.id()}; }
 };
 
+/// As u64: it keeps nothing, and is not moved when its container is adopted.
+template <class T>
+struct FieldTraits<WeakRef<T>> {
+    static constexpr std::string_view layout = "U";
+    static void write(Writer& to, WeakRef<T> value) { to.id(value.id); }
+    static WeakRef<T> read(Reader& from) { return WeakRef<T>{Id{from.scalar<std::uint64_t>()}}; }
+};
+
 template <>
 struct FieldTraits<Payload> {
     static constexpr std::string_view layout = "p";

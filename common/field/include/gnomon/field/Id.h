@@ -45,6 +45,21 @@ struct Ref {
     friend constexpr bool operator==(const Ref&, const Ref&) = default;
 };
 
+/// Names a container without holding it: it may be destroyed, and the name then resolves to nothing.
+/// For a writer that speaks of another writer's containers, whose end it learns of only afterwards.
+template <class T>
+struct WeakRef {
+    Id id = {};
+
+    constexpr WeakRef() noexcept = default;
+    constexpr explicit WeakRef(Id target) noexcept : id{target} {}
+    template <std::derived_from<T> U>
+    WeakRef(const U& container) noexcept : id{container.id()} {}
+
+    constexpr explicit operator bool() const noexcept { return static_cast<bool>(id); }
+    friend constexpr bool operator==(const WeakRef&, const WeakRef&) = default;
+};
+
 }  // namespace gnomon::field
 
 template <>

@@ -9,9 +9,10 @@ namespace gnomon::scene {
 class ShadowState final : public Container<ShadowState> {
 public:
     static constexpr std::string_view typeName = "ShadowState";
-    Field<Ref<Node>> light;         ///< the node whose core is the light
+    // Weak, because the application destroys lights and screens before the session can follow.
+    Field<field::WeakRef<Node>> light;  ///< the node whose core is the light
     /// The fit group: the screen all its tiles and eyes share, or the undecorated camera.
-    Field<Ref<field::FieldContainer>> group;
+    Field<field::WeakRef<field::FieldContainer>> group;
     Field<std::string> filter{"hard"};
     Field<std::int32_t> mapSize{512};   ///< texels a side, of each map
     Field<std::int32_t> pageSize{512};  ///< texels a side; divides mapSize
