@@ -43,8 +43,8 @@ TEST(Process, ItsOutputAndExitCodeCanBeRead) {
 }
 
 TEST(Process, TheEnvironmentIsAddedToOurs) {
-    auto child = shell("echo \"$GNOMON_PROBE,${PATH:+has path}\"",
-                       {.environment = {"GNOMON_PROBE=there"}});
+    auto child =
+        shell("echo \"$GNOMON_PROBE,${PATH:+has path}\"", {.environment = {"GNOMON_PROBE=there"}});
     ASSERT_TRUE(child.has_value());
     EXPECT_EQ(readAll(child->output()), "there,has path\n");
 }

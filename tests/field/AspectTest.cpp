@@ -1,7 +1,7 @@
 // Creation, destruction, references and ids.
-#include "TestTypes.h"
-
 #include <set>
+
+#include "TestTypes.h"
 
 namespace gnomon::field::test {
 namespace {
@@ -157,8 +157,8 @@ TEST(Aspect, AnAdoptedListCannotReachWhatWasHereBefore) {
     // Ids that the offset would wrap around to the one that is here.
     const std::uint64_t offset = Id::make(1, mine.id().counter()).value;
     const Id wrapped{mine.id().value - offset};
-    for (const Id id : {wrapped, Id{mine.id().value - offset + (std::uint64_t{1} << 63U)}, Id{~0ULL},
-                        Id{Reader::maxMoved + 1}, Id{0 - std::uint64_t{1}}}) {
+    for (const Id id : {wrapped, Id{mine.id().value - offset + (std::uint64_t{1} << 63U)},
+                        Id{~0ULL}, Id{Reader::maxMoved + 1}, Id{0 - std::uint64_t{1}}}) {
         const auto created =
             pair.source.adopt(ListBuilder{}.header(1, 0, 0).creation<Item>(id).list());
         EXPECT_FALSE(created.has_value());

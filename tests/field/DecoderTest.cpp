@@ -1,9 +1,9 @@
 // Bytes that no honest aspect wrote.
-#include "Editor.h"
-
 #include <algorithm>
 #include <cstdlib>
 #include <new>
+
+#include "Editor.h"
 
 namespace gnomon::field::test {
 namespace {
@@ -68,10 +68,10 @@ TEST(Decoder, NamesWhatIsWrong) {
     const auto one = [&] { return ListBuilder{}.header(1, 1, 0).creation<Item>(id); };
     expectRefused(ListBuilder{}.header(1, 0, 0).scalar(TypeId{7}).id(id).list(), "unknown type 7");
     expectRefused(ListBuilder{}.header(1, 0, 0).creation<Item>(Id{}).list(), "id 0");
-    expectRefused(
-        ListBuilder{}.header(2, 0, 0).creation<Item>(id).creation<Item>(id).list(),
-        "container 1:1 is created twice");
-    expectRefused(ListBuilder{}.header(0, 1, 0).change(id, 0).list(), "container 1:1 does not exist");
+    expectRefused(ListBuilder{}.header(2, 0, 0).creation<Item>(id).creation<Item>(id).list(),
+                  "container 1:1 is created twice");
+    expectRefused(ListBuilder{}.header(0, 1, 0).change(id, 0).list(),
+                  "container 1:1 does not exist");
     expectRefused(ListBuilder{}.header(0, 0, 1).id(id).list(), "container 1:1 does not exist");
     expectRefused(one().change(id, 1U << 12U).list(), "mask 4096 names fields it has not");
     expectRefused(one().change(id, maskOf<Item>("on")).scalar(std::uint8_t{2}).list(),
@@ -79,19 +79,30 @@ TEST(Decoder, NamesWhatIsWrong) {
     expectRefused(one().change(id, maskOf<Item>("colour")).scalar(3U).list(), "enumeration value");
     expectRefused(one().change(id, maskOf<Item>("next")).id(Id::make(1, 5)).list(),
                   "container 1:5, which does not exist");
-    expectRefused(one().change(id, maskOf<Item>("data"))
-                      .scalar(std::uint64_t{1}).scalar(std::uint64_t{2}).scalar(std::uint64_t{3})
+    expectRefused(one()
+                      .change(id, maskOf<Item>("data"))
+                      .scalar(std::uint64_t{1})
+                      .scalar(std::uint64_t{2})
+                      .scalar(std::uint64_t{3})
                       .list(),
                   "a payload that has not arrived");
-    expectRefused(one().change(id, maskOf<Item>("data"))
-                      .scalar(std::uint64_t{1}).scalar(std::uint64_t{2}).scalar(std::uint64_t{0})
+    expectRefused(one()
+                      .change(id, maskOf<Item>("data"))
+                      .scalar(std::uint64_t{1})
+                      .scalar(std::uint64_t{2})
+                      .scalar(std::uint64_t{0})
                       .list(),
                   "an empty payload with a hash");
     expectRefused(ListBuilder{}.header(1, 0, 2).creation<Item>(id).id(id).id(id).list(),
                   "container 1:1 does not exist");
     expectRefused(ListBuilder{}
-                      .header(2, 1, 1).creation<Item>(id).creation<Item>(Id::make(1, 2))
-                      .change(id, maskOf<Item>("next")).id(Id::make(1, 2)).id(Id::make(1, 2)).list(),
+                      .header(2, 1, 1)
+                      .creation<Item>(id)
+                      .creation<Item>(Id::make(1, 2))
+                      .change(id, maskOf<Item>("next"))
+                      .id(Id::make(1, 2))
+                      .id(Id::make(1, 2))
+                      .list(),
                   "container 1:2 is released but still referred to");
 }
 
@@ -100,14 +111,19 @@ TEST(Decoder, RangesOfMultiFieldsMustFit) {
     struct Range {
         std::uint32_t size, first, count;
     };
-    for (const Range r : {Range{1, 1, 1}, Range{2, 1, 1}, Range{~0U, 0, 0}, Range{~0U, 0, 1},
-                          Range{1, ~0U, 1}, Range{~0U, ~0U, 0}, Range{~0U, 0, ~0U},
-                          Range{0, 0, 1}, Range{5, 3, 2}}) {
+    for (const Range r :
+         {Range{1, 1, 1}, Range{2, 1, 1}, Range{~0U, 0, 0}, Range{~0U, 0, 1}, Range{1, ~0U, 1},
+          Range{~0U, ~0U, 0}, Range{~0U, 0, ~0U}, Range{0, 0, 1}, Range{5, 3, 2}}) {
         expectRefused(ListBuilder{}
-                          .header(1, 1, 0).creation<Item>(id)
+                          .header(1, 1, 0)
+                          .creation<Item>(id)
                           .change(id, maskOf<Item>("numbers"))
-                          .scalar(r.size).scalar(r.first).scalar(r.count)
-                          .scalar(std::int32_t{1}).scalar(std::int32_t{1}).list(),
+                          .scalar(r.size)
+                          .scalar(r.first)
+                          .scalar(r.count)
+                          .scalar(std::int32_t{1})
+                          .scalar(std::int32_t{1})
+                          .list(),
                       "range does not fit");
     }
 }
@@ -148,12 +164,19 @@ TEST(Decoder, AllocatesNoMoreThanTheBytesJustify) {
     for (const char* field : {"numbers", "words", "links", "blobs"})
         for (const std::uint32_t count : {huge, 0x10000000U, 1000U})
             lists.push_back(ListBuilder{}
-                                .header(1, 1, 0).creation<Item>(id)
+                                .header(1, 1, 0)
+                                .creation<Item>(id)
                                 .change(id, maskOf<Item>(field))
-                                .scalar(count).scalar(0U).scalar(count).list());
+                                .scalar(count)
+                                .scalar(0U)
+                                .scalar(count)
+                                .list());
     lists.push_back(ListBuilder{}
-                        .header(1, 1, 0).creation<Item>(id)
-                        .change(id, maskOf<Item>("name")).scalar(huge).list());
+                        .header(1, 1, 0)
+                        .creation<Item>(id)
+                        .change(id, maskOf<Item>("name"))
+                        .scalar(huge)
+                        .list());
     const TypeRegistry types = itemTypes();
     for (const ChangeList& list : lists) {
         Aspect aspect{types, 0};
@@ -181,8 +204,12 @@ TEST(Decoder, RandomCorruptionIsRefusedOrUnderstood) {
         for (int i = 0; i < edits; ++i) {
             const std::size_t at = random() % broken.bytes.size();
             switch (random() % 4) {
-                case 0: broken.bytes[at] = static_cast<std::byte>(random()); break;
-                case 1: broken.bytes[at] ^= static_cast<std::byte>(1U << random() % 8); break;
+                case 0:
+                    broken.bytes[at] = static_cast<std::byte>(random());
+                    break;
+                case 1:
+                    broken.bytes[at] ^= static_cast<std::byte>(1U << random() % 8);
+                    break;
                 case 2:
                     broken.bytes.erase(broken.bytes.begin() + static_cast<std::ptrdiff_t>(at));
                     break;

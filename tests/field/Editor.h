@@ -1,8 +1,8 @@
 #pragma once
 
-#include "TestTypes.h"
-
 #include <algorithm>
+
+#include "TestTypes.h"
 
 namespace gnomon::field::test {
 
@@ -24,18 +24,42 @@ public:
         auto e = edit(item);
         const auto value = static_cast<std::int32_t>(random_());
         switch (pick(14)) {
-            case 0: e->on = !e->on; break;
-            case 1: e->level = static_cast<std::uint8_t>(value); break;
-            case 2: e->number = value; break;
-            case 3: e->weight = value * 0.25; break;
-            case 4: e->name = word(); break;
-            case 5: e->colour = static_cast<Colour>(pick(3)); break;
-            case 6: e->next = pick(3) == 0 ? Ref<Item>{} : Ref<Item>{any()}; break;
-            case 7: e->data = payloadOf(word()); break;
-            case 8: e->numbers.pushBack(value); break;
-            case 9: e->words.insert(pick(e->words.size() + 1), word()); break;
-            case 10: e->links.pushBack(any()); break;
-            case 11: e->blobs.pushBack(payloadOf(word())); break;
+            case 0:
+                e->on = !e->on;
+                break;
+            case 1:
+                e->level = static_cast<std::uint8_t>(value);
+                break;
+            case 2:
+                e->number = value;
+                break;
+            case 3:
+                e->weight = value * 0.25;
+                break;
+            case 4:
+                e->name = word();
+                break;
+            case 5:
+                e->colour = static_cast<Colour>(pick(3));
+                break;
+            case 6:
+                e->next = pick(3) == 0 ? Ref<Item>{} : Ref<Item>{any()};
+                break;
+            case 7:
+                e->data = payloadOf(word());
+                break;
+            case 8:
+                e->numbers.pushBack(value);
+                break;
+            case 9:
+                e->words.insert(pick(e->words.size() + 1), word());
+                break;
+            case 10:
+                e->links.pushBack(any());
+                break;
+            case 11:
+                e->blobs.pushBack(payloadOf(word()));
+                break;
             case 12:
                 if (!e->links.empty()) e->links.erase(pick(e->links.size()));
                 break;

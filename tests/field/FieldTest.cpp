@@ -1,7 +1,7 @@
 // Fields, edit scopes and what can be said of a container from its table.
-#include "TestTypes.h"
-
 #include <type_traits>
+
+#include "TestTypes.h"
 
 namespace gnomon::field::test {
 namespace {
@@ -11,12 +11,14 @@ template <class Container, class Member>
 using Seen = decltype((std::declval<const Container&>().*std::declval<Member>()));
 static_assert(!std::is_assignable_v<Seen<Item, Field<std::int32_t> Item::*>, std::int32_t>);
 static_assert(!std::is_assignable_v<Seen<Item, Field<std::string> Item::*>, std::string>);
-static_assert(!std::is_assignable_v<Seen<Item, MultiField<std::int32_t> Item::*>,
-                                    MultiField<std::int32_t>>);
+static_assert(
+    !std::is_assignable_v<Seen<Item, MultiField<std::int32_t> Item::*>, MultiField<std::int32_t>>);
 template <class M>
-concept Writable = requires(M multi) { multi.set(0, 1); } || requires(M multi) {
-    multi.pushBack(1);
-} || requires(M multi) { multi.clear(); };
+concept Writable = requires(M multi) {
+    multi.set(0, 1);
+}
+|| requires(M multi) { multi.pushBack(1); }
+|| requires(M multi) { multi.clear(); };
 static_assert(!Writable<const MultiField<std::int32_t>&>);
 static_assert(Writable<MultiField<std::int32_t>&>);
 // Inside a scope it does, and what the aspect hands out is const.
@@ -159,7 +161,10 @@ TEST(Field, MultiFieldOperationsDoWhatAVectorDoes) {
             const auto value = static_cast<std::int32_t>(random());
             const std::size_t at = model.empty() ? 0 : random() % model.size();
             switch (random() % 6) {
-                case 0: e->numbers.pushBack(value); model.push_back(value); break;
+                case 0:
+                    e->numbers.pushBack(value);
+                    model.push_back(value);
+                    break;
                 case 1:
                     e->numbers.insert(at, value);
                     model.insert(model.begin() + static_cast<std::ptrdiff_t>(at), value);
@@ -179,10 +184,14 @@ TEST(Field, MultiFieldOperationsDoWhatAVectorDoes) {
                     e->numbers.clear();
                     model.clear();
                     break;
-                default: e->numbers.pushBack(value); model.push_back(value); break;
+                default:
+                    e->numbers.pushBack(value);
+                    model.push_back(value);
+                    break;
             }
         }
-        ASSERT_TRUE(std::equal(model.begin(), model.end(), item.numbers.begin(), item.numbers.end()));
+        ASSERT_TRUE(
+            std::equal(model.begin(), model.end(), item.numbers.begin(), item.numbers.end()));
         if (random() % 3 != 0) continue;  // several edits a commit
         pair.exchange();
         const auto& copy = pair.replica.get(Ref<Item>{item.id()})->numbers;

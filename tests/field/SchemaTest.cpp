@@ -55,7 +55,8 @@ TEST(Schema, ADisagreementNamesTypeAndField) {
                        {"\"Item\"", "field 2", "\"count\"", "\"number\""});
     auto retyped = ours.fields;
     retyped[2].layout = "I";
-    expectDisagreement(schemaOf({describe("Item", retyped)}), {"\"Item\"", "\"number\" (I)", "(i)"});
+    expectDisagreement(schemaOf({describe("Item", retyped)}),
+                       {"\"Item\"", "\"number\" (I)", "(i)"});
     auto multi = ours.fields;
     multi[2].multi = true;
     expectDisagreement(schemaOf({describe("Item", multi)}), {"\"Item\"", "\"number\" (i, multi)"});
@@ -73,7 +74,8 @@ TEST(Schema, ADisagreementNamesTypeAndField) {
 TEST(Schema, BadOnesAreRefusedWhole) {
     expectDisagreement(schemaOf({describe("New", {{.name = "x", .layout = "q"}})}),
                        {"\"New\"", "\"x\"", "unknown layout \"q\""});
-    expectDisagreement(schemaOf({describe("New", {{.name = "x", .layout = ""}})}), {"unknown layout"});
+    expectDisagreement(schemaOf({describe("New", {{.name = "x", .layout = ""}})}),
+                       {"unknown layout"});
     expectDisagreement(schemaOf({describe("New", {{.name = "x", .layout = "ss"}})}),
                        {"unknown layout"});
     expectDisagreement(
@@ -90,15 +92,16 @@ TEST(Schema, BadOnesAreRefusedWhole) {
     TypeRegistry types = itemTypes();
     auto retyped = Item::describe().fields;
     retyped[0].layout = "i";
-    EXPECT_FALSE(types.agree(schemaOf({describe("New", {}), describe("Item", retyped)}), "x")
-                     .has_value());
+    EXPECT_FALSE(
+        types.agree(schemaOf({describe("New", {}), describe("Item", retyped)}), "x").has_value());
     EXPECT_EQ(types.find(typeIdOf("New")), nullptr) << "nothing is taken from a refused schema";
 }
 
 TEST(Schema, NamesWithOneHashAreRefused) {
     // FNV-1a is easy to collide on purpose: "costarring" and "liquid" do (32 bits).
     static_assert(typeIdOf("costarring") == typeIdOf("liquid"));
-    expectDisagreement(schemaOf({describe("costarring", {}), describe("liquid", {})}), {"\"liquid\""});
+    expectDisagreement(schemaOf({describe("costarring", {}), describe("liquid", {})}),
+                       {"\"liquid\""});
     TypeRegistry types;
     EXPECT_TRUE(types.agree(schemaOf({describe("costarring", {})}), "a").has_value());
     EXPECT_FALSE(types.agree(schemaOf({describe("liquid", {})}), "b").has_value());

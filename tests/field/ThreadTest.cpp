@@ -1,11 +1,12 @@
-// Two threads, an aspect each, exchanging change lists at a barrier. Run under the thread sanitizer.
-#include "Editor.h"
-
+// Two threads, an aspect each, exchanging change lists at a barrier. Run under the thread
+// sanitizer.
 #include <gnomon/field/Barrier.h>
 
 #include <array>
 #include <atomic>
 #include <thread>
+
+#include "Editor.h"
 
 namespace gnomon::field::test {
 namespace {

@@ -118,7 +118,8 @@ TEST(View, ATileIsExactlyThePartOfTheWhole) {
                     const double shareX = (p.x / p.w + 1.0) * 0.5;
                     const double shareY = (p.y / p.w + 1.0) * 0.5;
                     EXPECT_NEAR((q.x / q.w + 1.0) * 0.5, (shareX - part.left) / part.width, 1e-14);
-                    EXPECT_NEAR((q.y / q.w + 1.0) * 0.5, (shareY - part.bottom) / part.height, 1e-14);
+                    EXPECT_NEAR((q.y / q.w + 1.0) * 0.5, (shareY - part.bottom) / part.height,
+                                1e-14);
                     EXPECT_EQ(q.z, p.z);
                     EXPECT_EQ(q.w, p.w);
                 }
@@ -152,10 +153,10 @@ TEST(View, CornersLieOnThePlanesTheyBelongTo) {
     std::mt19937 random{2};
     std::uniform_real_distribution<double> u{-1.0, 1.0};
     for (int i = 0; i < 100; ++i) {
-        const dmat4 clip =
-            frustum(-1.5 + u(random), 1.5 + u(random), -1.2 + u(random), 1.2 + u(random), 0.3, 40.0) *
-            lookAt({u(random) * 9.0, u(random) * 9.0, u(random) * 9.0}, {u(random), 0.0, 0.0},
-                   {0.0, 1.0, 0.0});
+        const dmat4 clip = frustum(-1.5 + u(random), 1.5 + u(random), -1.2 + u(random),
+                                   1.2 + u(random), 0.3, 40.0) *
+                           lookAt({u(random) * 9.0, u(random) * 9.0, u(random) * 9.0},
+                                  {u(random), 0.0, 0.0}, {0.0, 1.0, 0.0});
         const auto corners = frustumCorners(clip);
         const auto planes = frustumPlanes(clip);
         // near: lower left, lower right, upper right, upper left; then far.

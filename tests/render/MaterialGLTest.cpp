@@ -1,7 +1,7 @@
 // Materials: what they cast, and how what they show is darkened.
-#include "RenderFixture.h"
-
 #include <cmath>
+
+#include "RenderFixture.h"
 
 namespace gnomon::render {
 namespace {
@@ -16,8 +16,8 @@ protected:
             quad({-10.0F, 0.0F, 10.0F}, {20.0F, 0.0F, 0.0F}, {0.0F, 0.0F, -20.0F}));
     }
     void caster(const scene::Node& below) {
-        add(paint(below, phong(vec3{0.8F})).node, box(vec3{-1.0F, 0.0F, -1.0F}, vec3{1.0F, 2.0F, 1.0F}),
-            true);
+        add(paint(below, phong(vec3{0.8F})).node,
+            box(vec3{-1.0F, 0.0F, -1.0F}, vec3{1.0F, 2.0F, 1.0F}), true);
     }
     const scene::Texture& texture(int width, int height, const std::vector<std::uint8_t>& rgba) {
         const auto& made = app.create<scene::Texture>();
@@ -82,7 +82,8 @@ TEST_F(MaterialGLTest, AForeignMaterialSeesItsUniforms) {
             uniform mat4 gnomonClipFromLocal;
             out vec2 uv;
             void main() { uv = texCoord; gl_Position = gnomonClipFromLocal * vec4(position, 1.0); })";
-        e->fragmentSource = R"(in vec2 uv; uniform sampler2D gnomonTexture; uniform float gnomonTime;
+        e->fragmentSource =
+            R"(in vec2 uv; uniform sampler2D gnomonTexture; uniform float gnomonTime;
             layout(location = 0) out vec4 o;
             void main() { o = texture(gnomonTexture, uv) * step(gnomonTime, 1.0); })";
         e->texture = texture(2, 1, {255, 0, 0, 255, 0, 255, 0, 255});
@@ -161,7 +162,8 @@ TEST_F(MaterialGLTest, AMirroredBoxIsThePictureOfTheBoxOnTheOtherSide) {
     ground(sun.node, phong(vec3{0.8F}));
     const auto moved = transform(sun.node);
     const auto painted = paint(moved.node, phong(vec3{0.9F, 0.2F, 0.1F}));
-    const auto& mesh = add(painted.node, box(vec3{-3.0F, 0.0F, -1.0F}, vec3{-1.0F, 2.0F, 1.0F}), true);
+    const auto& mesh =
+        add(painted.node, box(vec3{-3.0F, 0.0F, -1.0F}, vec3{-1.0F, 2.0F, 1.0F}), true);
     const View seen = view(perspectiveView({3.0, 6.0, 9.0}, {0.0, 0.0, 0.0}), 128, 128);
     const auto direct = picture(seen);
     // The same box, modelled on the other side and mirrored back.

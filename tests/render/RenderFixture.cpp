@@ -171,7 +171,8 @@ RenderTest::Rgb RenderTest::pixel(const image::Image& image, int x, int y) {
     const auto first =
         static_cast<std::size_t>(y * image.width + x) * static_cast<std::size_t>(image.channels);
     const auto value = [&](std::size_t c) {
-        return int{image.pixels.at(first + std::min(c, static_cast<std::size_t>(image.channels - 1)))};
+        return int{
+            image.pixels.at(first + std::min(c, static_cast<std::size_t>(image.channels - 1)))};
     };
     return {value(0), value(1), value(2)};
 }

@@ -1,7 +1,7 @@
 // Shadows where geometry says they are.
-#include "RenderFixture.h"
-
 #include <cmath>
+
+#include "RenderFixture.h"
 
 namespace gnomon::render {
 namespace {
@@ -67,7 +67,8 @@ TEST_F(ShadowGLTest, ASunsShadowLiesWhereGeometrySays) {
         const auto sun = light<scene::DirectionalLight>(root, -direction, {0.0, 0.0, 0.0});
         stage(sun.node);
         const View top = view(topView(), 256, 256);
-        expectAnalytic(factor(top, sun.node), [&](const dvec3&) { return -direction; }, 100.0);
+        expectAnalytic(
+            factor(top, sun.node), [&](const dvec3&) { return -direction; }, 100.0);
         edit(root)->removeChild(sun.node);
         ASSERT_TRUE(app.destroyTree(sun.node).has_value());
         ASSERT_TRUE(app.destroyTree(top.window).has_value());

@@ -32,8 +32,8 @@ protected:
     }
     const PerspectiveCamera& lens() {
         const auto beacon = makeNode<Transform>(source, "beacon");
-        edit(beacon.core)->matrix = math::toAffine(glm::inverse(
-            math::lookAt({3.0, 2.0, 7.0}, {0.0, 1.0, 0.0}, {0.0, 1.0, 0.0})));
+        edit(beacon.core)->matrix = math::toAffine(
+            glm::inverse(math::lookAt({3.0, 2.0, 7.0}, {0.0, 1.0, 0.0}, {0.0, 1.0, 0.0})));
         const auto& camera = source.create<PerspectiveCamera>();
         auto e = edit(camera);
         e->beacon = beacon.node;
@@ -143,8 +143,8 @@ TEST_F(ScreenTest, NavigationWithAScaleKeepsTheScreenAndNearAndFar) {
     // Near and far are metres of the world along the screen's normal.
     const dvec3 ahead = glm::normalize(world({0.0, 0.0, -1.0}) - world({0.0, 0.0, 0.0}));
     const auto depth = [&](double d) {
-        const dvec4 clip = result.view.clipFromWorld() *
-                           dvec4{result.view.eyeWorld() + ahead * d, 1.0};
+        const dvec4 clip =
+            result.view.clipFromWorld() * dvec4{result.view.eyeWorld() + ahead * d, 1.0};
         EXPECT_NEAR(clip.w, d, d * 1e-6) << "w is the distance";
         return clip.z / clip.w;
     };

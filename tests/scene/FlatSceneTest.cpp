@@ -1,8 +1,8 @@
 // The flattened scene: what follows incrementally equals what is built anew.
-#include "SceneFixture.h"
-
 #include <algorithm>
 #include <random>
+
+#include "SceneFixture.h"
 
 namespace gnomon::scene {
 namespace {

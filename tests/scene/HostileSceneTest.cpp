@@ -1,8 +1,8 @@
 // Trees that no honest application sends.
-#include "SceneFixture.h"
-
 #include <algorithm>
 #include <initializer_list>
+
+#include "SceneFixture.h"
 
 namespace gnomon::scene {
 namespace {

@@ -119,8 +119,8 @@ TEST_F(NodeTest, WorldFromNodeComposesTransforms) {
     const Node& leaf = node("leaf");
     edit(outer.node)->addChild(inner.node);
     edit(inner.node)->addChild(leaf);
-    edit(outer.core)->matrix = math::Affine{.translation = {1.0, 2.0, 3.0},
-                                            .linear = math::mat3{2.0F}};
+    edit(outer.core)->matrix =
+        math::Affine{.translation = {1.0, 2.0, 3.0}, .linear = math::mat3{2.0F}};
     edit(inner.core)->matrix = math::Affine{.translation = {10.0, 0.0, 0.0}};
     const math::dmat4 world = worldFromNode(source, leaf);
     EXPECT_EQ(math::dvec3{world[3]}, math::dvec3(21.0, 2.0, 3.0));

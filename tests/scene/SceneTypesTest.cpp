@@ -1,9 +1,9 @@
 // The types of a scene, as containers.
-#include "SceneFixture.h"
-
 #include <gnomon/scene/Window.h>
 
 #include <random>
+
+#include "SceneFixture.h"
 
 namespace gnomon::scene {
 namespace {

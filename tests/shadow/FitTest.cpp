@@ -55,12 +55,12 @@ Situation randomSituation(Chance& chance, LightKind kind) {
     const int views = chance.coin() ? 1 : 2;
     const dvec3 eye = centre + chance.direction() * size * chance.between(0.1, 3.0);
     for (int i = 0; i < views; ++i)
-        s.views.push_back({.clipFromEye = math::perspective(chance.between(0.3, 1.8),
-                                                            chance.between(0.5, 2.5), size * 1e-3,
-                                                            size * chance.between(1.0, 20.0)),
-                           .eyeFromWorld = math::lookAt(eye + dvec3{0.065 * i, 0.0, 0.0},
-                                                        chance.point(s.scene.min, s.scene.max),
-                                                        {0.0, 1.0, 0.0})});
+        s.views.push_back(
+            {.clipFromEye = math::perspective(chance.between(0.3, 1.8), chance.between(0.5, 2.5),
+                                              size * 1e-3, size * chance.between(1.0, 20.0)),
+             .eyeFromWorld =
+                 math::lookAt(eye + dvec3{0.065 * i, 0.0, 0.0},
+                              chance.point(s.scene.min, s.scene.max), {0.0, 1.0, 0.0})});
     s.light.kind = kind;
     s.light.direction = chance.direction();
     s.light.position = centre - s.light.direction * size * chance.between(0.0, 3.0);
@@ -149,17 +149,31 @@ TEST_P(EveryFit, DegenerateScenesGiveFiniteMapsOrNone) {
     for (int round = 0; round < 40; ++round) {
         Situation s = randomSituation(chance, kind());
         switch (round % 8) {
-            case 0: s.scene = {}; break;
-            case 1: s.scene.max = s.scene.min; break;
-            case 2: s.scene.max.y = s.scene.min.y; break;
-            case 3: s.scene.max = {s.scene.min.x, s.scene.min.y, s.scene.max.z}; break;
-            case 4:  // the light along the view, and against it
-                s.light.direction = (round % 16 < 8 ? -1.0 : 1.0) *
-                                    dvec3{glm::inverse(s.views[0].eyeFromWorld)[2]};
+            case 0:
+                s.scene = {};
                 break;
-            case 5: s.light.position = s.scene.centre(); break;
-            case 6: s.light.position = s.views[0].eyeWorld(); break;
-            default: s.light.direction = {0.0, round % 16 < 8 ? -1.0 : 1.0, 0.0}; break;
+            case 1:
+                s.scene.max = s.scene.min;
+                break;
+            case 2:
+                s.scene.max.y = s.scene.min.y;
+                break;
+            case 3:
+                s.scene.max = {s.scene.min.x, s.scene.min.y, s.scene.max.z};
+                break;
+            case 4:  // the light along the view, and against it
+                s.light.direction =
+                    (round % 16 < 8 ? -1.0 : 1.0) * dvec3{glm::inverse(s.views[0].eyeFromWorld)[2]};
+                break;
+            case 5:
+                s.light.position = s.scene.centre();
+                break;
+            case 6:
+                s.light.position = s.views[0].eyeWorld();
+                break;
+            default:
+                s.light.direction = {0.0, round % 16 < 8 ? -1.0 : 1.0, 0.0};
+                break;
         }
         const Fitted fitted = info().fit(s.input());
         for (const FittedMap& map : fitted.maps) EXPECT_TRUE(math::isFinite(map.clipFromWorld));

@@ -248,8 +248,8 @@ TEST_F(ShadowFitterTest, WhatCannotBeDoneIsToldOnce) {
 }
 
 TEST_F(ShadowFitterTest, APlaceThatIsNotFiniteIsMarkedAndHasNoMaps) {
-    edit(beacon.core)->matrix = math::Affine{.translation = math::dvec3{std::nan("")},
-                                             .linear = math::mat3{std::nanf("")}};
+    edit(beacon.core)->matrix =
+        math::Affine{.translation = math::dvec3{std::nan("")}, .linear = math::mat3{std::nanf("")}};
     frame();
     for (const ShadowState* state : states())
         for (const math::dmat4& map : state->clipFromWorld) EXPECT_TRUE(math::isFinite(map));

@@ -13,9 +13,9 @@ TEST(TechniqueName, IsAFitAndAFilter) {
     struct Case {
         std::string_view text, fit, filter;
     };
-    for (const Case& c : {Case{"std", "std", "hard"}, Case{"std+pcf", "std", "pcf"},
-                          Case{"pcf", "std", "pcf"}, Case{"vsm", "std", "vsm"},
-                          Case{"std+hard", "std", "hard"}}) {
+    for (const Case& c :
+         {Case{"std", "std", "hard"}, Case{"std+pcf", "std", "pcf"}, Case{"pcf", "std", "pcf"},
+          Case{"vsm", "std", "vsm"}, Case{"std+hard", "std", "hard"}}) {
         const auto name = parseTechnique(c.text, filters);
         ASSERT_TRUE(name.has_value()) << name.error().text();
         EXPECT_EQ(name->fit, c.fit);
