@@ -1,20 +1,20 @@
 #include "Shot.h"
 
-#include "Console.h"
-#include "LocalSession.h"
-
 #include <gnomon/client/AnimationPlayer.h>
 #include <gnomon/config/Adjust.h>
 #include <gnomon/config/Layout.h>
 #include <gnomon/config/Load.h>
 #include <gnomon/image/Pgm.h>
 #include <gnomon/image/Png.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <optional>
+
+#include "Console.h"
+#include "LocalSession.h"
 
 namespace gnomon::client {
 namespace {
@@ -54,8 +54,9 @@ image::Image columns(const image::Image& whole, int x, int width) {
     const auto from = static_cast<std::ptrdiff_t>(whole.width) * whole.channels;
     const auto to = static_cast<std::ptrdiff_t>(width) * whole.channels;
     for (int y = 0; y < whole.height; ++y)
-        std::copy_n(whole.pixels.begin() + y * from + static_cast<std::ptrdiff_t>(x) * whole.channels,
-                    to, part.pixels.begin() + y * to);
+        std::copy_n(
+            whole.pixels.begin() + y * from + static_cast<std::ptrdiff_t>(x) * whole.channels, to,
+            part.pixels.begin() + y * to);
     return part;
 }
 
@@ -88,10 +89,12 @@ public:
         edit(*aspect_.get(casters_))->matrix = math::Affine{.translation = {0.0, by, 0.0}};
         for (const auto& ref : lights_) {
             const scene::Node* node = aspect_.get(ref);
-            const auto* light = node == nullptr ? nullptr : aspect_.get(Ref<scene::Light>{node->core->id});
-            const scene::Node* beacon = light == nullptr ? nullptr : aspect_.get(light->beacon.get());
-            const auto* place = beacon == nullptr ? nullptr
-                                                  : aspect_.get(Ref<scene::Transform>{beacon->core->id});
+            const auto* light =
+                node == nullptr ? nullptr : aspect_.get(Ref<scene::Light>{node->core->id});
+            const scene::Node* beacon =
+                light == nullptr ? nullptr : aspect_.get(light->beacon.get());
+            const auto* place =
+                beacon == nullptr ? nullptr : aspect_.get(Ref<scene::Transform>{beacon->core->id});
             if (place == nullptr) continue;
             math::Affine matrix = place->matrix;
             matrix.translation.y += by;
@@ -109,8 +112,9 @@ private:
 class Shot {
 public:
     explicit Shot(const ShotOptions& options)
-        : options_{options},
-          session_{options.backend, [this](const std::string& t) { console_.log(LogLevel::warning, t); }} {}
+        : options_{options}, session_{options.backend, [this](const std::string& t) {
+                                          console_.log(LogLevel::warning, t);
+                                      }} {}
 
     int take();
 
@@ -138,12 +142,12 @@ private:
 };
 
 void Shot::load() {
-    auto prepared = prepareScene(session_.aspect(),
-                                 {.file = options_.scene,
-                                  .lights = options_.lights,
-                                  .progress = [&](double share, const std::string& what) {
-                                      console_.progress("loading", share, what);
-                                  }});
+    auto prepared =
+        prepareScene(session_.aspect(), {.file = options_.scene,
+                                         .lights = options_.lights,
+                                         .progress = [&](double share, const std::string& what) {
+                                             console_.progress("loading", share, what);
+                                         }});
     scene_ = orThrow(std::move(prepared));
     if (!scene_.model) return;
     for (const auto& warning : scene_.model->warnings) console_.log(LogLevel::warning, warning);
@@ -156,7 +160,8 @@ void Shot::lookFreely() {
     field::Aspect& aspect = session_.aspect();
     const auto size = options_.view.size.value_or(defaultSize);
     const double shape = static_cast<double>(size[0]) / size[1];
-    const auto fallback = defaultView(aspect, scene_, opening(options_.view.fovy.value_or(defaultFovy), shape));
+    const auto fallback =
+        defaultView(aspect, scene_, opening(options_.view.fovy.value_or(defaultFovy), shape));
     const auto given = options_.view.look();
     const Look look = given.value_or(fallback.look);
     const double fovy =
@@ -172,7 +177,8 @@ void Shot::lookFreely() {
     mapSize_ = static_cast<int>(shadow.mapSize);
     const auto& viewport = aspect.create<scene::ShadowViewport>();
     const auto& sky = aspect.create<scene::GradientBackground>();
-    edit(sky)->stops.assign({math::vec4{0.72F, 0.79F, 0.86F, 0.0F}, math::vec4{0.16F, 0.33F, 0.62F, 1.0F}});
+    edit(sky)->stops.assign(
+        {math::vec4{0.72F, 0.79F, 0.86F, 0.0F}, math::vec4{0.16F, 0.33F, 0.62F, 1.0F}});
     {
         auto e = edit(viewport);
         e->camera = camera;
@@ -192,7 +198,8 @@ void Shot::lookFreely() {
 
 void Shot::lookAsWall() {
     config::Config wall = orThrow(config::loadConfig(options_.wall));
-    if (options_.tile) wall = orThrow(config::withTileSize(wall, (*options_.tile)[0], (*options_.tile)[1]));
+    if (options_.tile)
+        wall = orThrow(config::withTileSize(wall, (*options_.tile)[0], (*options_.tile)[1]));
     if (options_.view.near) wall.render.near = options_.view.near;
     if (options_.view.far) wall.render.far = options_.view.far;
     options_.shadow.apply(wall.shadow);
@@ -205,8 +212,8 @@ void Shot::lookAsWall() {
         // Both eyes always: the fit of a screen's shadows knows both.
         const auto eyes = eyesOf(wall, i);
         if (eyes.empty()) continue;
-        const auto whole = orThrow(
-            buildWholeScreen(aspect, wall, i, eyes, scene_.tree.root, "shot"));
+        const auto whole =
+            orThrow(buildWholeScreen(aspect, wall, i, eyes, scene_.tree.root, "shot"));
         setView(aspect, whole, wall, look);
         setDepthRange(aspect, whole, wall, depthRange(scene_.bounds, look.eye));
         Shown shown{.window = whole.windows.front()};
@@ -218,10 +225,11 @@ void Shot::lookAsWall() {
             if (chosen && eyes[k] != *options_.eyeSide && eyes[k] != config::Eye::mono) continue;
             if (!chosen && eyes[k] != config::Eye::mono)
                 suffix += eyes[k] == config::Eye::left ? "-left" : "-right";
-            shown.parts.push_back({.file = options_.out.empty() ? options_.out : withSuffix(options_.out, suffix),
-                                   .x = static_cast<int>(k) * width,
-                                   .width = width,
-                                   .screen = i});
+            shown.parts.push_back(
+                {.file = options_.out.empty() ? options_.out : withSuffix(options_.out, suffix),
+                 .x = static_cast<int>(k) * width,
+                 .width = width,
+                 .screen = i});
         }
         shown_.push_back(std::move(shown));
     }
@@ -277,7 +285,9 @@ void Shot::time() {
     const auto median = [&](double render::FrameStatistics::*member) {
         std::vector<double> values;
         for (const auto& pass : passes) values.push_back(pass.*member);
-        std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+        std::nth_element(values.begin(),
+                         values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                         values.end());
         return values[values.size() / 2];
     };
     passes_.shadowMs = median(&render::FrameStatistics::shadowMs);
@@ -303,10 +313,11 @@ void Shot::writeFactor() {
     const auto lights = activeLights(session_.aspect(), scene_);
     const auto index = static_cast<std::size_t>(options_.light);
     if (index >= lights.size())
-        throw Failure{Errc::config, "--light " + std::to_string(options_.light) + ": the scene has " +
-                                        std::to_string(lights.size()) + " light(s) that are on"};
-    const auto factor = session_.renderer().shadowFactor(session_.rendered(shown_.front().window), 0,
-                                                         lights[index]);
+        throw Failure{Errc::config, "--light " + std::to_string(options_.light) +
+                                        ": the scene has " + std::to_string(lights.size()) +
+                                        " light(s) that are on"};
+    const auto factor = session_.renderer().shadowFactor(session_.rendered(shown_.front().window),
+                                                         0, lights[index]);
     orThrow(image::writePgm(options_.shadowFactor, orThrow(Result<image::Image>{factor})));
     console_.line("wrote " + options_.shadowFactor.string());
 }
@@ -319,9 +330,8 @@ void Shot::writeJson() const {
                                 {"map_size", mapSize_},
                                 {"renderer", session_.context().renderer()}};
     if (!sorted.empty()) {
-        json["frame_ms"] = {{"median", sorted[sorted.size() / 2]},
-                            {"min", sorted.front()},
-                            {"max", sorted.back()}};
+        json["frame_ms"] = {
+            {"median", sorted[sorted.size() / 2]}, {"min", sorted.front()}, {"max", sorted.back()}};
         json["pass_ms"] = {{"shadow", passes_.shadowMs},
                            {"color", passes_.colorMs},
                            {"overlay", passes_.overlayMs}};

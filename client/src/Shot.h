@@ -1,11 +1,11 @@
 #pragma once
 
-#include "ViewOptions.h"
-
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "ViewOptions.h"
 
 namespace gnomon::client {
 
@@ -18,10 +18,11 @@ struct ShotOptions {
     int frames = 0;  ///< to time, after warm-up; 0: one picture, no timing
     bool dynamic = false;
     int light = 0;
-    double animationTime = 0.0;       ///< seconds
+    double animationTime = 0.0;  ///< seconds
     int samples = 1;
     std::filesystem::path wall = {};  ///< a wall's config instead of a view
-    std::optional<std::array<int, 2>> tile = {};  ///< pixels of each of its tiles instead of the config's
+    std::optional<std::array<int, 2>> tile =
+        {};  ///< pixels of each of its tiles instead of the config's
     std::optional<config::Eye> eyeSide = {};
     std::filesystem::path out = {};
     std::filesystem::path shadowFactor = {};

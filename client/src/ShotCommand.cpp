@@ -1,7 +1,7 @@
+#include <memory>
+
 #include "Commands.h"
 #include "Shot.h"
-
-#include <memory>
 
 namespace gnomon::client {
 
@@ -15,12 +15,14 @@ void addShot(CLI::App& program, Action& action) {
     addBackendOption(command, options->backend);
     command.add_option("--frames", options->frames, "frames to time, after warm-up")
         ->check(CLI::Range(1, 1000000));
-    command.add_flag("--dynamic", options->dynamic,
-                     "move light and casters imperceptibly every frame, so that nothing can be kept");
+    command.add_flag(
+        "--dynamic", options->dynamic,
+        "move light and casters imperceptibly every frame, so that nothing can be kept");
     command.add_option("--light", options->light, "light whose factor is written, counted from 0")
         ->check(CLI::Range(0, 63));
     command.add_option("--time", options->animationTime, "seconds into the scene's animations");
-    command.add_option("--samples", options->samples, "multisampling")->check(CLI::IsMember({1, 2, 4, 8}));
+    command.add_option("--samples", options->samples, "multisampling")
+        ->check(CLI::IsMember({1, 2, 4, 8}));
     command.add_option("--wall", options->wall, "what this wall shows, in one piece");
     command.add_option_function<std::string>(
         "--tile", [options](const std::string& text) { options->tile = parseSize("--tile", text); },

@@ -22,12 +22,18 @@ std::int64_t nanosecondsNow() {
 net::EventKind kindOf(gl::InputEvent::Kind kind) {
     using Kind = gl::InputEvent::Kind;
     switch (kind) {
-        case Kind::key: return net::EventKind::key;
-        case Kind::button: return net::EventKind::button;
-        case Kind::motion: return net::EventKind::move;
-        case Kind::scroll: return net::EventKind::scroll;
-        case Kind::close: return net::EventKind::close;
-        case Kind::resize: return net::EventKind::resize;
+        case Kind::key:
+            return net::EventKind::key;
+        case Kind::button:
+            return net::EventKind::button;
+        case Kind::motion:
+            return net::EventKind::move;
+        case Kind::scroll:
+            return net::EventKind::scroll;
+        case Kind::close:
+            return net::EventKind::close;
+        case Kind::resize:
+            return net::EventKind::resize;
     }
     return net::EventKind::key;
 }
@@ -137,7 +143,8 @@ void FrameLoop::take(const net::Snapshot& snapshot) {
     apply(snapshot.changes);
     host_->setActivity(net::Activity::compiling);
     if (session_->windows.empty())
-        report(net::LogLevel::warning, "no window of the scene bears the name \"" + options_.name + "\"");
+        report(net::LogLevel::warning,
+               "no window of the scene bears the name \"" + options_.name + "\"");
     renderFrame(snapshot.n, snapshot.time, false, true, since);
 }
 
@@ -175,9 +182,8 @@ void FrameLoop::renderFrame(std::uint64_t n, double time, bool capture, bool cha
     net::Ready ready{.n = n, .shownFrame = shownFrame_, .shownAt = shownAt_};
     const auto applied = Clock::now();
     ready.stats.applyMs = static_cast<float>(milliseconds(applied - since));
-    const bool animates = std::any_of(stations_.begin(), stations_.end(), [](const auto& entry) {
-        return entry.second->animates();
-    });
+    const bool animates = std::any_of(stations_.begin(), stations_.end(),
+                                      [](const auto& entry) { return entry.second->animates(); });
     // A still scene is drawn once.
     const bool draw = options_.backend != "none" && (changed || animates || !session_->drawn);
     for (const scene::Window* window : session_->windows) {

@@ -1,14 +1,14 @@
 #pragma once
 
-#include "Options.h"
-#include "Station.h"
-
 #include <gnomon/net/ServerHost.h>
 
 #include <map>
 #include <memory>
 #include <optional>
 #include <vector>
+
+#include "Options.h"
+#include "Station.h"
 
 namespace gnomon::server {
 

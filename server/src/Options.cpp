@@ -13,7 +13,8 @@ bool parseOptions(int argc, char** argv, Options& options, int& exitCode) {
     program.add_option("--backend", options.backend, "egl, osmesa, glfw, none or auto")
         ->check(CLI::IsMember({"egl", "osmesa", "glfw", "none", "auto"}))
         ->capture_default_str();
-    program.add_option("--gpu", options.gpu, "GPU to render on, as the system counts them; -1: any");
+    program.add_option("--gpu", options.gpu,
+                       "GPU to render on, as the system counts them; -1: any");
     program.add_flag("--exit-with-client", options.exitWithClient,
                      "end when the client goes away (local walls)");
     try {
@@ -23,8 +24,8 @@ bool parseOptions(int argc, char** argv, Options& options, int& exitCode) {
         if (colon == std::string::npos || colon + 1 == listen.size())
             throw CLI::ValidationError("--listen", "\"" + listen + "\", expected ADDR:PORT");
         const std::string digits = listen.substr(colon + 1);
-        const bool number = digits.find_first_not_of("0123456789") == std::string::npos &&
-                            digits.size() <= 5;
+        const bool number =
+            digits.find_first_not_of("0123456789") == std::string::npos && digits.size() <= 5;
         const unsigned long port = number ? std::stoul(digits, &used) : 65536UL;
         if (port > 65535)
             throw CLI::ValidationError("--listen", "port \"" + digits + "\", expected 0 to 65535");

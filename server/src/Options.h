@@ -7,10 +7,10 @@ namespace gnomon::server {
 
 /// The command line of gnomon-server.
 struct Options {
-    std::string name = {};                ///< the server's name in the wall's config
+    std::string name = {};  ///< the server's name in the wall's config
     std::string address = "127.0.0.1";
-    std::uint16_t port = 0;               ///< 0: any free one; reported on standard output
-    std::string backend = "auto";         ///< egl osmesa glfw none auto
+    std::uint16_t port = 0;        ///< 0: any free one; reported on standard output
+    std::string backend = "auto";  ///< egl osmesa glfw none auto
     int gpu = -1;
     bool exitWithClient = false;
 };

@@ -3,8 +3,8 @@
 namespace gnomon::server {
 
 Station::Station(gl::Backend backend, int gpu, bool wantsWindow)
-    : context_{orThrow(gl::createContext(
-          {.backend = backend, .gpu = gpu, .wantsWindow = wantsWindow}))} {}
+    : context_{orThrow(
+          gl::createContext({.backend = backend, .gpu = gpu, .wantsWindow = wantsWindow}))} {}
 
 Station::~Station() {
     context_->makeCurrent();
@@ -48,12 +48,12 @@ Result<gl::Window*> Station::windowOf(const scene::Window& window) {
     auto now = shape.take();
     if (shown.window && shown.shape == now) return shown.window.get();
     shown.window.reset();
-    gl::WindowOptions options{.title = window.title.get().empty() ? "Gnomon: " + window.server.get()
-                                                                  : window.title.get(),
-                              .width = window.size->x,
-                              .height = window.size->y,
-                              .fullscreen = window.fullscreen,
-                              .monitor = window.fullscreen ? window.monitor.get() : -1};
+    gl::WindowOptions options{
+        .title = window.title.get().empty() ? "Gnomon: " + window.server.get() : window.title.get(),
+        .width = window.size->x,
+        .height = window.size->y,
+        .fullscreen = window.fullscreen,
+        .monitor = window.fullscreen ? window.monitor.get() : -1};
     options.position = gl::WindowPosition{window.position->x, window.position->y};
     options.decorated = false;
     auto opened = gl::openWindow(*context_, options);

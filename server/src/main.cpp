@@ -1,7 +1,5 @@
 // gnomon-server: one render process of a wall.
 
-#include "FrameLoop.h"
-
 #include <pthread.h>
 #include <unistd.h>
 
@@ -10,6 +8,8 @@
 #include <cstdio>
 #include <exception>
 #include <thread>
+
+#include "FrameLoop.h"
 
 namespace {
 

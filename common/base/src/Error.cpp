@@ -7,17 +7,28 @@ namespace gnomon {
 
 std::string_view name(Errc code) noexcept {
     switch (code) {
-        case Errc::config: return "config";
-        case Errc::context: return "context";
-        case Errc::shader: return "shader";
-        case Errc::protocol: return "protocol";
-        case Errc::schema: return "schema";
-        case Errc::timeout: return "timeout";
-        case Errc::disconnected: return "disconnected";
-        case Errc::edit: return "edit";
-        case Errc::file: return "file";
-        case Errc::limit: return "limit";
-        case Errc::process: return "process";
+        case Errc::config:
+            return "config";
+        case Errc::context:
+            return "context";
+        case Errc::shader:
+            return "shader";
+        case Errc::protocol:
+            return "protocol";
+        case Errc::schema:
+            return "schema";
+        case Errc::timeout:
+            return "timeout";
+        case Errc::disconnected:
+            return "disconnected";
+        case Errc::edit:
+            return "edit";
+        case Errc::file:
+            return "file";
+        case Errc::limit:
+            return "limit";
+        case Errc::process:
+            return "process";
     }
     return "unknown";
 }

@@ -1,6 +1,5 @@
-#include <gnomon/base/Process.h>
-
 #include <fcntl.h>
+#include <gnomon/base/Process.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>

@@ -97,7 +97,7 @@ Config localized(const Config& config) {
     // Processes that share one machine's cores wait for each other; one that died is noticed by its
     // closed connection, without any timeout.
     const auto servers = static_cast<double>(result.servers.size());
-    result.sync.timeout = std::max(result.sync.timeout, 0.25 * servers);        // seconds
+    result.sync.timeout = std::max(result.sync.timeout, 0.25 * servers);  // seconds
     result.sync.startTimeout = std::max(result.sync.startTimeout, 10.0 * servers);
     return result;
 }

@@ -11,8 +11,7 @@ void sortAround(std::vector<dvec3>& points, const dvec3& normal) {
     dvec3 centre{0.0};
     for (const auto& p : points) centre += p;
     centre /= static_cast<double>(points.size());  // never called with no points
-    const dvec3 helper =
-        std::abs(normal.x) < 0.7 ? dvec3{1.0, 0.0, 0.0} : dvec3{0.0, 1.0, 0.0};
+    const dvec3 helper = std::abs(normal.x) < 0.7 ? dvec3{1.0, 0.0, 0.0} : dvec3{0.0, 1.0, 0.0};
     const dvec3 u = glm::normalize(glm::cross(normal, helper));
     const dvec3 v = glm::cross(normal, u);
     const auto angle = [&](const dvec3& p) {

@@ -124,8 +124,8 @@ std::array<Plane, 6> frustumPlanes(const dmat4& clipFromWorld) noexcept {
         const dvec3 normal{sides[i]};
         const double length = glm::length(normal);
         // An infinite far plane has no normal: everything is inside it.
-        planes[i] = length > 0.0 ? Plane{normal / length, sides[i].w / length}
-                                 : Plane{dvec3{0.0}, 0.0};
+        planes[i] =
+            length > 0.0 ? Plane{normal / length, sides[i].w / length} : Plane{dvec3{0.0}, 0.0};
     }
     return planes;
 }

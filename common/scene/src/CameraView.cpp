@@ -8,9 +8,7 @@ namespace {
 /// Decorators nest at most this deep; also ends a circle of them.
 constexpr int maxDecorators = 16;
 
-double eyeSign(Eye eye) noexcept {
-    return eye == Eye::left ? -0.5 : eye == Eye::right ? 0.5 : 0.0;
-}
+double eyeSign(Eye eye) noexcept { return eye == Eye::left ? -0.5 : eye == Eye::right ? 0.5 : 0.0; }
 
 class Resolver {
 public:
@@ -38,8 +36,7 @@ public:
 private:
     CameraView perspective(const PerspectiveCamera& camera) const {
         CameraView result;
-        result.view.clipFromEye =
-            math::perspective(camera.fovy, aspect_, camera.near, camera.far);
+        result.view.clipFromEye = math::perspective(camera.fovy, aspect_, camera.near, camera.far);
         result.view.eyeFromWorld = glm::inverse(worldFromNode(scene_, camera.beacon));
         result.whole = result.view;
         result.group = Ref<field::FieldContainer>{camera};
@@ -73,7 +70,8 @@ private:
         const math::dmat4 worldFromRoom =
             navigation == nullptr ? math::dmat4{1.0} : math::toMatrix(navigation->worldFromRoom);
         const double scale = std::cbrt(std::abs(glm::determinant(math::dmat3{worldFromRoom})));
-        const auto* lens = dynamic_cast<const PerspectiveCamera*>(scene_.get(camera.decoratee.get()));
+        const auto* lens =
+            dynamic_cast<const PerspectiveCamera*>(scene_.get(camera.decoratee.get()));
         const double near = lens == nullptr ? 0.1 : lens->near.get();
         const double far = lens == nullptr ? 1000.0 : lens->far.get();
 
@@ -141,9 +139,8 @@ PixelRect pixelRect(const math::Rect& rect, glm::ivec2 window) noexcept {
     const int y = pixels(rect.bottom, window.y);
     // Where both are shares the far edge is rounded, not the width, so that neighbours meet.
     const auto far = [&](double low, double extent, int start, int whole) {
-        return low <= 1.0 && extent <= 1.0
-                   ? static_cast<int>(std::lround((low + extent) * whole))
-                   : start + pixels(extent, whole);
+        return low <= 1.0 && extent <= 1.0 ? static_cast<int>(std::lround((low + extent) * whole))
+                                           : start + pixels(extent, whole);
     };
     const int right = far(rect.left, rect.width, x, window.x);
     const int top = far(rect.bottom, rect.height, y, window.y);

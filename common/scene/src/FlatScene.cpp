@@ -21,8 +21,9 @@ void FlatScene::update(Ref<Node> root, std::span<const Ref<Node>> excluded,
     rebuilt_ = lightsChanged_ = false;
     moved_.clear();
     movedBounds_.clear();
-    bool structure = !built_ || root != root_ ||
-                     !std::equal(excluded.begin(), excluded.end(), excluded_.begin(), excluded_.end());
+    bool structure =
+        !built_ || root != root_ ||
+        !std::equal(excluded.begin(), excluded.end(), excluded_.begin(), excluded_.end());
     bool lights = false;
     bool places = false;
     static constexpr field::TypeId transformType = field::typeIdOf(Transform::typeName);
@@ -86,9 +87,10 @@ void FlatScene::rebuild(Ref<Node> root, std::span<const Ref<Node>> excluded) {
         if (core != nullptr) parts_.insert(core->id());
         if (const auto* transform = dynamic_cast<const Transform*>(core)) {
             const auto index = static_cast<std::uint32_t>(places_.size());
-            places_.push_back({.parent = at.place,
-                               .transform = transform,
-                               .world = places_[at.place].world * math::toMatrix(transform->matrix)});
+            places_.push_back(
+                {.parent = at.place,
+                 .transform = transform,
+                 .world = places_[at.place].world * math::toMatrix(transform->matrix)});
             placesOf_.emplace(transform->id(), index);
             at.place = index;
         } else if (const auto* geometry = dynamic_cast<const Geometry*>(core)) {
@@ -110,7 +112,8 @@ void FlatScene::rebuild(Ref<Node> root, std::span<const Ref<Node>> excluded) {
             if (lights_.size() < maxLights) {
                 at.lights |= std::uint64_t{1} << lights_.size();
                 lights_.push_back({.node = at.node, .light = light});
-                if (const Node* beacon = aspect_.get(light->beacon.get())) parts_.insert(beacon->id());
+                if (const Node* beacon = aspect_.get(light->beacon.get()))
+                    parts_.insert(beacon->id());
             } else {
                 ++lightsLeftOut_;
             }
@@ -127,13 +130,13 @@ void FlatScene::rebuild(Ref<Node> root, std::span<const Ref<Node>> excluded) {
     // Instances by place, so that a moved place finds its own.
     instanceOrder_.resize(instances_.size());
     for (std::uint32_t i = 0; i < instanceOrder_.size(); ++i) instanceOrder_[i] = i;
-    std::stable_sort(instanceOrder_.begin(), instanceOrder_.end(), [&](auto a, auto b) {
-        return instances_[a].place < instances_[b].place;
-    });
+    std::stable_sort(instanceOrder_.begin(), instanceOrder_.end(),
+                     [&](auto a, auto b) { return instances_[a].place < instances_[b].place; });
     std::uint32_t next = 0;
     for (std::uint32_t place = 0; place < places_.size(); ++place) {
         places_[place].firstInstance = next;
-        while (next < instanceOrder_.size() && instances_[instanceOrder_[next]].place == place) ++next;
+        while (next < instanceOrder_.size() && instances_[instanceOrder_[next]].place == place)
+            ++next;
         places_[place].lastInstance = next;
     }
     refreshLights();

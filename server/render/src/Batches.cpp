@@ -20,7 +20,8 @@ MaterialBlock blockFor(const scene::Material* material) {
     const auto* phong = dynamic_cast<const scene::PhongMaterial*>(material);
     if (phong == nullptr) return block;
     block.diffuse = phong->diffuse;
-    block.specular = math::vec4{phong->specular.get(), std::clamp(phong->shininess.get(), 1.0F, 8192.0F)};
+    block.specular =
+        math::vec4{phong->specular.get(), std::clamp(phong->shininess.get(), 1.0F, 8192.0F)};
     const bool masked = phong->alpha == scene::PhongMaterial::Alpha::mask;
     block.emissive = math::vec4{phong->emissive.get(), masked ? phong->alphaCutoff.get() : -1.0F};
     block.texRowS = math::vec4{phong->texRowS.get(), phong->normalScale};
@@ -29,17 +30,20 @@ MaterialBlock blockFor(const scene::Material* material) {
 }
 
 math::Box chunkBounds(const scene::Chunk& chunk, const math::dmat4& world) {
-    const bool ordered = chunk.min.x <= chunk.max.x && chunk.min.y <= chunk.max.y &&
-                         chunk.min.z <= chunk.max.z;
+    const bool ordered =
+        chunk.min.x <= chunk.max.x && chunk.min.y <= chunk.max.y && chunk.min.z <= chunk.max.z;
     if (!ordered) return {};
     return math::transformed({.min = math::dvec3{chunk.min}, .max = math::dvec3{chunk.max}}, world);
 }
 
 GLenum glPrimitive(scene::Primitive primitive) {
     switch (primitive) {
-        case scene::Primitive::lines: return GL_LINES;
-        case scene::Primitive::points: return GL_POINTS;
-        default: return GL_TRIANGLES;
+        case scene::Primitive::lines:
+            return GL_LINES;
+        case scene::Primitive::points:
+            return GL_POINTS;
+        default:
+            return GL_TRIANGLES;
     }
 }
 
@@ -175,7 +179,8 @@ void Batches::uploadMaterials() {
     std::vector<std::byte> bytes(materials_.size() * static_cast<std::size_t>(materialStride));
     for (std::size_t i = 0; i < materials_.size(); ++i) {
         const MaterialBlock block = blockFor(materials_[i]);
-        std::memcpy(bytes.data() + i * static_cast<std::size_t>(materialStride), &block, sizeof block);
+        std::memcpy(bytes.data() + i * static_cast<std::size_t>(materialStride), &block,
+                    sizeof block);
     }
     materialBuffer_ = gl::Buffer{gl_};
     materialBuffer_.label("materials");

@@ -1,9 +1,5 @@
 #pragma once
 
-#include "MeshStore.h"
-#include "Programs.h"
-#include "TextureStore.h"
-
 #include <gnomon/scene/FlatScene.h>
 
 #include <array>
@@ -11,6 +7,10 @@
 #include <functional>
 #include <map>
 #include <vector>
+
+#include "MeshStore.h"
+#include "Programs.h"
+#include "TextureStore.h"
 
 namespace gnomon::render {
 

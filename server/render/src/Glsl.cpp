@@ -377,8 +377,9 @@ void main() { outColor = texture(image, vTexCoord); }
 }
 
 std::string_view combine() noexcept {
-    // What the foreign shader drew is taken as its own sum over all lights: the share of it that each
-    // light would have in ours is darkened by that light's factor, and what is ambient is left.
+    // What the foreign shader drew is taken as its own sum over all lights: the share of it that
+    // each light would have in ours is darkened by that light's factor, and what is ambient is
+    // left.
     return R"glsl(
 in vec2 vShare;
 layout(binding = 3) uniform sampler2D depthImage;

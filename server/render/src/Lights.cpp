@@ -40,7 +40,10 @@ LightBlock blockFor(const scene::FlatScene::LightUse& use, const shadow_fit::Lig
     LightBlock block;
     const math::dvec3 position = shape.position - origin;
     block.position = math::vec4{math::dvec4{position, shape.range}};
-    block.direction = math::vec4{math::dvec4{shape.direction, static_cast<double>(shape.kind == shadow_fit::LightKind::directional ? 0 : shape.kind == shadow_fit::LightKind::point ? 1 : 2)}};
+    block.direction = math::vec4{math::dvec4{
+        shape.direction, static_cast<double>(shape.kind == shadow_fit::LightKind::directional ? 0
+                                             : shape.kind == shadow_fit::LightKind::point     ? 1
+                                                                                          : 2)}};
     block.color = math::vec4{use.light->color.get() * use.light->intensity.get(), 1.0F};
     block.ambient = math::vec4{use.light->ambient.get(), 0.0F};
     if (const auto* point = dynamic_cast<const scene::PointLight*>(use.light)) {
@@ -94,10 +97,12 @@ Lights::Uploaded Lights::upload(const scene::FlatScene& flat, const math::View& 
     done.directional = done.count;
     for (std::size_t i = 0; i < uses.size(); ++i) put(i, false);
     if (maps != nullptr)
-        done.mapsPerLight = maps->arrange(std::span{order}.first(static_cast<std::size_t>(done.count)));
-    done.scoped = std::any_of(
-        flat.instances().begin(), flat.instances().end(),
-        [&](const scene::FlatScene::Instance& instance) { return (instance.lights & used) != used; });
+        done.mapsPerLight =
+            maps->arrange(std::span{order}.first(static_cast<std::size_t>(done.count)));
+    done.scoped = std::any_of(flat.instances().begin(), flat.instances().end(),
+                              [&](const scene::FlatScene::Instance& instance) {
+                                  return (instance.lights & used) != used;
+                              });
 
     ViewBlock block;
     block.eye = math::vec4{math::dvec4{view.eyeWorld() - origin, static_cast<double>(done.count)}};

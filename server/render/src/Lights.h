@@ -18,15 +18,14 @@ public:
 
     struct Uploaded {
         int count = 0;
-        int directional = 0;  ///< the first of them
-        bool scoped = false;  ///< some surface is not lit by all of them
-        int mapsPerLight = 0; ///< the largest number of shadow maps of a light
+        int directional = 0;   ///< the first of them
+        bool scoped = false;   ///< some surface is not lit by all of them
+        int mapsPerLight = 0;  ///< the largest number of shadow maps of a light
     };
     /// Writes what reaches the view; binds both blocks, and the shadow maps in the lights' order.
     /// @param only  -1: all that are on; else just this one, at index 0, on or off.
-    Uploaded upload(const scene::FlatScene& flat, const math::View& view,
-                    const math::dvec3& origin, const scene::Viewport& viewport,
-                    shadow::ShadowMaps* maps, int only = -1);
+    Uploaded upload(const scene::FlatScene& flat, const math::View& view, const math::dvec3& origin,
+                    const scene::Viewport& viewport, shadow::ShadowMaps* maps, int only = -1);
 
 private:
     const gl::Api& gl_;

@@ -72,7 +72,8 @@ void MeshStore::upload(const scene::Geometry& geometry, Mesh& mesh) {
     for (const std::uint32_t index : indices)
         if (index >= vertices) return;
     for (const scene::Chunk& chunk : geometry.chunks)
-        if (chunk.firstIndex > indices.size() || chunk.indexCount > indices.size() - chunk.firstIndex)
+        if (chunk.firstIndex > indices.size() ||
+            chunk.indexCount > indices.size() - chunk.firstIndex)
             return;
     for (std::size_t i = 1; i < streams.size(); ++i)
         if (data[i]->size() == vertices * static_cast<std::size_t>(streams[i].bytes))
@@ -95,10 +96,9 @@ void MeshStore::upload(const scene::Geometry& geometry, Mesh& mesh) {
     mesh.firstIndex = indexAt.value();
     for (std::size_t i = 0; i < streams.size(); ++i) {
         if (!has(mesh.format, streams[i])) continue;
-        gl_.NamedBufferSubData(arena.streams[i].id(),
-                               static_cast<GLintptr>(mesh.baseVertex) * streams[i].bytes,
-                               static_cast<GLsizeiptr>(vertices) * streams[i].bytes,
-                               data[i]->bytes().data());
+        gl_.NamedBufferSubData(
+            arena.streams[i].id(), static_cast<GLintptr>(mesh.baseVertex) * streams[i].bytes,
+            static_cast<GLsizeiptr>(vertices) * streams[i].bytes, data[i]->bytes().data());
     }
     gl_.NamedBufferSubData(arena.elements.id(), static_cast<GLintptr>(mesh.firstIndex) * 4,
                            static_cast<GLsizeiptr>(indices.size_bytes()), indices.data());
@@ -120,8 +120,8 @@ void MeshStore::growVertices(Arena& arena, std::uint32_t format, std::uint32_t m
 void MeshStore::growIndices(Arena& arena, std::uint32_t format, std::uint32_t more) {
     const std::uint64_t before = arena.indices.capacity();
     arena.indices.grow(nextCapacity(arena.indices.capacity(), more));
-    arena.elements = enlarged(gl_, arena.elements, before * 4U, arena.indices.capacity() * 4ULL,
-                              "indices");
+    arena.elements =
+        enlarged(gl_, arena.elements, before * 4U, arena.indices.capacity() * 4ULL, "indices");
     makeVertexArrays(arena, format);
 }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "RangeAllocator.h"
-
 #include <gnomon/gl/Handle.h>
 #include <gnomon/scene/Geometry.h>
 
@@ -9,6 +7,8 @@
 #include <map>
 #include <unordered_map>
 #include <vector>
+
+#include "RangeAllocator.h"
 
 namespace gnomon::render {
 

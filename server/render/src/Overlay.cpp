@@ -19,7 +19,8 @@ void Overlay::drawBackground(const field::Aspect& scene, const scene::Viewport& 
     }
     const GLuint program = programs_.background();
     gl_.UseProgram(program);
-    gl_.ProgramUniform2f(program, 0, static_cast<float>(part.bottom), static_cast<float>(part.height));
+    gl_.ProgramUniform2f(program, 0, static_cast<float>(part.bottom),
+                         static_cast<float>(part.height));
     gl_.ProgramUniform1i(program, 1, count);
     gl_.ProgramUniform4fv(program, 2, count, &stops[0].x);
     gl_.Enable(GL_DEPTH_TEST);

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "Programs.h"
-#include "TextureStore.h"
-
 #include <gnomon/scene/CameraView.h>
 #include <gnomon/scene/Window.h>
+
+#include "Programs.h"
+#include "TextureStore.h"
 
 namespace gnomon::render {
 
@@ -14,7 +14,8 @@ public:
     Overlay(const gl::Api& gl, Programs& programs, TextureStore& textures)
         : gl_{gl}, programs_{programs}, textures_{textures}, empty_{gl} {}
 
-    /// Fills the pixels nothing was drawn on (depth still cleared). @param part of the whole picture.
+    /// Fills the pixels nothing was drawn on (depth still cleared). @param part of the whole
+    /// picture.
     void drawBackground(const field::Aspect& scene, const scene::Viewport& viewport,
                         const math::Rect& part);
     void drawForegrounds(const field::Aspect& scene, const scene::Viewport& viewport,

@@ -1,13 +1,13 @@
 #include "Programs.h"
 
-#include "Glsl.h"
-#include "MeshStore.h"
-
 #include <gnomon/gl/Shader.h>
 #include <gnomon/shadow/Filter.h>
 
 #include <array>
 #include <vector>
+
+#include "Glsl.h"
+#include "MeshStore.h"
 
 namespace gnomon::render {
 namespace {
@@ -95,7 +95,8 @@ GLuint Programs::mesh(const Variant& variant) {
 }
 
 GLuint Programs::background() {
-    if (!background_) background_ = build("background", "", glsl::backgroundVertex(), {glsl::background()});
+    if (!background_)
+        background_ = build("background", "", glsl::backgroundVertex(), {glsl::background()});
     return background_.id();
 }
 

@@ -28,7 +28,7 @@ struct Variant {
     static constexpr int maxDirectional = 4;  ///< directional lights a program is written out for
     static constexpr int maxOther = 8;        ///< and others
     Pass pass = Pass::color;
-    std::uint32_t format = 0;    ///< MeshFormat
+    std::uint32_t format = 0;  ///< MeshFormat
     std::uint32_t features = 0;
     int directionalLights = 0;
     int otherLights = 0;

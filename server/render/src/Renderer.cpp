@@ -1,10 +1,4 @@
 #include <gnomon/render/Renderer.h>
-
-#include "Lights.h"
-#include "Overlay.h"
-#include "SceneDrawer.h"
-#include "Target.h"
-
 #include <gnomon/scene/CameraView.h>
 #include <gnomon/shadow/ShadowMaps.h>
 
@@ -13,15 +7,18 @@
 #include <map>
 #include <set>
 
+#include "Lights.h"
+#include "Overlay.h"
+#include "SceneDrawer.h"
+#include "Target.h"
+
 namespace gnomon::render {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
 /// What a view without shadows is drawn relative to; ShadowState::origin otherwise.
-math::dvec3 originFor(const math::View& view) {
-    return glm::round(view.eyeWorld() / 32.0) * 32.0;
-}
+math::dvec3 originFor(const math::View& view) { return glm::round(view.eyeWorld() / 32.0) * 32.0; }
 
 math::mat4 clipFromOrigin(const math::View& view, const math::dvec3& origin) {
     math::dmat4 shift{1.0};
@@ -176,16 +173,15 @@ Result<Renderer::Parts::Seen> Renderer::Parts::look(const scene::Window& window,
     seen.pixels = scene::pixelRect(viewport.rect, window.size);
     if (seen.pixels.width <= 0 || seen.pixels.height <= 0)
         return fail(Errc::edit, "a viewport without area in window \"" + window.title.get() + "\"");
-    auto camera = scene::cameraView(
-        scene, viewport.camera, static_cast<double>(seen.pixels.width) / seen.pixels.height);
+    auto camera = scene::cameraView(scene, viewport.camera,
+                                    static_cast<double>(seen.pixels.width) / seen.pixels.height);
     if (!camera) return tl::unexpected{std::move(camera).error()};
     if (!math::isFinite(camera->view.clipFromWorld()))
         return fail(Errc::edit, "a camera whose matrices are not finite");
     seen.camera = *camera;
     seen.drawer = &drawer(viewport);
     seen.states = statesFor(viewport, camera->group.id);
-    seen.origin =
-        seen.states.empty() ? originFor(camera->view) : seen.states.front()->origin.get();
+    seen.origin = seen.states.empty() ? originFor(camera->view) : seen.states.front()->origin.get();
     return seen;
 }
 
@@ -274,15 +270,16 @@ Result<void> Renderer::Parts::drawViewport(const scene::Window& window,
     gl.Clear(GLbitfield{GL_DEPTH_BUFFER_BIT} |
              (foreign ? GLbitfield{GL_STENCIL_BUFFER_BIT} : GLbitfield{0}));
 
-    const SceneDrawer::ColorPass pass{.clipFromOrigin = clipFromOrigin(seen.camera.view, seen.origin),
-                                      .clipFromWorld = seen.camera.view.clipFromWorld(),
-                                      .eyeFromWorld = seen.camera.view.eyeFromWorld,
-                                      .eyeWorld = seen.camera.view.eyeWorld(),
-                                      .scopedLights = lit.scoped,
-                                      .mapsPerLight = lit.mapsPerLight,
-                                      .lights = lit.count,
-                                      .directionalLights = lit.directional,
-                                      .time = time};
+    const SceneDrawer::ColorPass pass{
+        .clipFromOrigin = clipFromOrigin(seen.camera.view, seen.origin),
+        .clipFromWorld = seen.camera.view.clipFromWorld(),
+        .eyeFromWorld = seen.camera.view.eyeFromWorld,
+        .eyeWorld = seen.camera.view.eyeWorld(),
+        .scopedLights = lit.scoped,
+        .mapsPerLight = lit.mapsPerLight,
+        .lights = lit.count,
+        .directionalLights = lit.directional,
+        .time = time};
     const auto count = [&](const PassStatistics& drawn) {
         done.triangles += drawn.triangles;
         done.chunks += drawn.chunks;
@@ -356,8 +353,7 @@ image::Image Renderer::read(const scene::Window& window) {
     return picture;
 }
 
-Result<image::Image> Renderer::shadowFactor(const scene::Window& window,
-                                            std::size_t viewportIndex,
+Result<image::Image> Renderer::shadowFactor(const scene::Window& window, std::size_t viewportIndex,
                                             scene::Ref<scene::Node> light) {
     Parts& p = *parts_;
     const gl::Api& gl = p.gl;
@@ -372,9 +368,8 @@ Result<image::Image> Renderer::shadowFactor(const scene::Window& window,
     const auto& seen = *looked;
     SceneDrawer& drawer = *seen.drawer;
     const auto all = drawer.flat().lights();
-    const auto found = std::find_if(all.begin(), all.end(), [&](const auto& use) {
-        return use.node->id() == light.id;
-    });
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const auto& use) { return use.node->id() == light.id; });
     if (found == all.end())
         return fail(Errc::config, "no such light: the scene has " + std::to_string(all.size()));
     const auto index = static_cast<int>(found - all.begin());

@@ -102,8 +102,7 @@ PassStatistics SceneDrawer::gather(const ColorPass& pass, bool blended) {
         }
         const math::dvec3 nearest =
             glm::clamp(pass.eyeWorld, drawable.bounds.min, drawable.bounds.max);
-        const math::dvec3 way =
-            (blended ? drawable.bounds.centre() : nearest) - pass.eyeWorld;
+        const math::dvec3 way = (blended ? drawable.bounds.centre() : nearest) - pass.eyeWorld;
         items_[drawable.batch].push_back(
             {.distance = static_cast<float>(glm::dot(way, way)), .command = drawable.command});
         ++done.chunks;
@@ -174,9 +173,11 @@ PassStatistics SceneDrawer::drawOpaque(const ColorPass& pass) {
     for (std::size_t i = 0; i < states.size(); ++i)
         std::sort(items_[i].begin(), items_[i].end(),
                   [](const Item& a, const Item& b) { return a.distance < b.distance; });
-    flush(states, [&](const BatchState& state) { useSurface(state, pass); }, false);
+    flush(
+        states, [&](const BatchState& state) { useSurface(state, pass); }, false);
     for (std::size_t i = 0; i < states.size(); ++i)
-        if (states[i].foreign != nullptr && !items_[i].empty()) drawForeign(states[i], items_[i], pass);
+        if (states[i].foreign != nullptr && !items_[i].empty())
+            drawForeign(states[i], items_[i], pass);
     return done;
 }
 
@@ -261,9 +262,10 @@ void SceneDrawer::drawFactor(const ColorPass& pass) {
     flush(
         plain,
         [&](const BatchState& state) {
-            Variant variant{.pass = Variant::Pass::factor,
-                            .format = state.format,
-                            .features = state.features & (Variant::alphaMask | Variant::diffuseMap)};
+            Variant variant{
+                .pass = Variant::Pass::factor,
+                .format = state.format,
+                .features = state.features & (Variant::alphaMask | Variant::diffuseMap)};
             if (pass.mapsPerLight > 0) variant.features |= Variant::shadows;
             variant.mapsPerLight = pass.mapsPerLight;
             const GLuint program = programs_.mesh(variant);
@@ -301,9 +303,10 @@ shadow::CasterSource::Drawn SceneDrawer::drawCasters(const math::mat4& clipFromO
         [&](const BatchState& state) {
             const bool masked = (state.features & Variant::alphaMask) != 0;
             // An opaque caster reads positions alone, whatever else its mesh has.
-            const GLuint program = programs_.mesh({.pass = Variant::Pass::depth,
-                                                   .format = masked ? state.format & (hasTexCoords | hasColors) : 0U,
-                                                   .features = state.features});
+            const GLuint program =
+                programs_.mesh({.pass = Variant::Pass::depth,
+                                .format = masked ? state.format & (hasTexCoords | hasColors) : 0U,
+                                .features = state.features});
             gl_.UseProgram(program);
             gl_.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, &clipFromOrigin[0][0]);
             if (masked) {

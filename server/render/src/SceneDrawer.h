@@ -1,13 +1,13 @@
 #pragma once
 
-#include "Batches.h"
-
 #include <gnomon/shadow/ShadowMaps.h>
 
 #include <functional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "Batches.h"
 
 namespace gnomon::render {
 
@@ -64,11 +64,12 @@ private:
     void uploadInstances();
     void writeInstance(std::size_t index);
     PassStatistics gather(const ColorPass& pass, bool blended);
-    void flush(std::span<const BatchState> states, const std::function<void(const BatchState&)>& use,
-               bool positionsOnly);
+    void flush(std::span<const BatchState> states,
+               const std::function<void(const BatchState&)>& use, bool positionsOnly);
     void setFaces(const BatchState& state);
     void useSurface(const BatchState& state, const ColorPass& pass);
-    void drawForeign(const BatchState& state, const std::vector<Item>& items, const ColorPass& pass);
+    void drawForeign(const BatchState& state, const std::vector<Item>& items,
+                     const ColorPass& pass);
 
     struct InstanceGpu {
         math::vec4 rows[3];

@@ -6,9 +6,7 @@
 namespace gnomon::render {
 namespace {
 
-GLenum depthFormat(bool stencil) {
-    return stencil ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F;
-}
+GLenum depthFormat(bool stencil) { return stencil ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F; }
 GLenum depthAttachment(bool stencil) {
     return stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT;
 }
@@ -53,8 +51,8 @@ Result<Target> Target::make(const gl::Api& gl, const Shape& shape) {
                                                shape.size.y);
         target.samples_ = gl::Framebuffer{gl};
         target.samples_.label("window, multisampled");
-        gl.NamedFramebufferRenderbuffer(target.samples_.id(), GL_COLOR_ATTACHMENT0,
-                                        GL_RENDERBUFFER, target.manyColor_.id());
+        gl.NamedFramebufferRenderbuffer(target.samples_.id(), GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
+                                        target.manyColor_.id());
         gl.NamedFramebufferRenderbuffer(target.samples_.id(), depthAttachment(shape.stencil),
                                         GL_RENDERBUFFER, target.manyDepth_.id());
     }

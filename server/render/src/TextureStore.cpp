@@ -13,9 +13,12 @@ constexpr GLenum maxTextureMaxAnisotropy = 0x84FF;
 
 GLint glWrap(scene::Texture::Wrap wrap) {
     switch (wrap) {
-        case scene::Texture::Wrap::mirror: return GL_MIRRORED_REPEAT;
-        case scene::Texture::Wrap::clamp: return GL_CLAMP_TO_EDGE;
-        default: return GL_REPEAT;
+        case scene::Texture::Wrap::mirror:
+            return GL_MIRRORED_REPEAT;
+        case scene::Texture::Wrap::clamp:
+            return GL_CLAMP_TO_EDGE;
+        default:
+            return GL_REPEAT;
     }
 }
 

@@ -1,9 +1,9 @@
 #include <gnomon/shadow_fit/Fit.h>
 
-#include "LightCamera.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "LightCamera.h"
 
 namespace gnomon::shadow_fit {
 namespace {
@@ -18,10 +18,9 @@ Result<TechniqueName> parseTechnique(std::string_view text,
                                      std::span<const std::string_view> filters) {
     if (text == "none") return TechniqueName{};
     const auto plus = text.find('+');
-    TechniqueName name{.fit = std::string{text.substr(0, plus)},
-                       .filter = plus == std::string_view::npos
-                                     ? "hard"
-                                     : std::string{text.substr(plus + 1)}};
+    TechniqueName name{
+        .fit = std::string{text.substr(0, plus)},
+        .filter = plus == std::string_view::npos ? "hard" : std::string{text.substr(plus + 1)}};
     if (plus == std::string_view::npos && contains(filters, name.fit))
         name = {.fit = "std", .filter = std::string{text}};
     std::string known = "none";

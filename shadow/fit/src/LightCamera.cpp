@@ -16,8 +16,9 @@ double cross(const dvec2& a, const dvec2& b) { return a.x * b.y - a.y * b.x; }
 
 /// Andrew's monotone chain. Counter-clockwise, without the points on its edges.
 std::vector<dvec2> convexHull(std::vector<dvec2> points) {
-    std::sort(points.begin(), points.end(),
-              [](const dvec2& a, const dvec2& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+    std::sort(points.begin(), points.end(), [](const dvec2& a, const dvec2& b) {
+        return a.x < b.x || (a.x == b.x && a.y < b.y);
+    });
     points.erase(std::unique(points.begin(), points.end()), points.end());
     if (points.size() < 3) return points;
     std::vector<dvec2> hull;
@@ -119,7 +120,8 @@ dmat4 parallelCamera(const FitInput& input, std::span<const dvec3> receivers) {
     // Room for half a texel of filter and one of offset at the border, and toward the light for
     // every caster.
     const double border = 2.0 / std::max(input.mapSize, 8);
-    const dvec2 extent = glm::max(dvec2{high} - dvec2{low}, dvec2{1e-6 * input.scene.radius() + 1e-9});
+    const dvec2 extent =
+        glm::max(dvec2{high} - dvec2{low}, dvec2{1e-6 * input.scene.radius() + 1e-9});
     low = dvec3{dvec2{low} - extent * border, low.z};
     high = dvec3{dvec2{high} + extent * border, high.z};
     for (int i = 0; i < 8; ++i) high.z = std::max(high.z, glm::dot(input.scene.corner(i), toLight));

@@ -60,9 +60,8 @@ void ShadowFitter::update(field::Aspect& session, const field::Applied& applied)
         if (!flat) flat = std::make_unique<scene::FlatScene>(session);
     }
     std::erase_if(scenes_, [&](const auto& entry) {
-        return std::none_of(groups.begin(), groups.end(), [&](const Group& g) {
-            return g.viewport->root->id == entry.first;
-        });
+        return std::none_of(groups.begin(), groups.end(),
+                            [&](const Group& g) { return g.viewport->root->id == entry.first; });
     });
     for (auto& [root, flat] : scenes_) flat->update(scene::Ref<scene::Node>{root}, {}, applied);
     for (const Group& group : groups) fit(session, group);
@@ -84,8 +83,7 @@ void ShadowFitter::collectGroups(const field::Aspect& session, std::vector<Group
     for (const field::Id id : windows_) {
         const auto* window = session.get(scene::Ref<scene::Window>{id});
         for (const auto& ref : window->viewports) {
-            const auto* viewport =
-                dynamic_cast<const scene::ShadowViewport*>(session.find(ref.id));
+            const auto* viewport = dynamic_cast<const scene::ShadowViewport*>(session.find(ref.id));
             if (viewport == nullptr || !viewport->shadowOn) continue;
             const auto pixels = scene::pixelRect(viewport->rect, window->size);
             const double aspect =
@@ -148,10 +146,8 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group) {
             state = &session.create<scene::ShadowState>();
             held.state = state->id();
         }
-        Fitted fitted = info.fit({.light = light,
-                                  .views = group.views,
-                                  .scene = flat.bounds(),
-                                  .mapSize = rounded});
+        Fitted fitted = info.fit(
+            {.light = light, .views = group.views, .scene = flat.bounds(), .mapSize = rounded});
         std::vector<math::dmat4> maps;
         for (const FittedMap& map : fitted.maps) {
             if (!math::isFinite(map.clipFromWorld)) {

@@ -3,10 +3,10 @@
 namespace gnomon::shadow {
 
 std::string_view lookupGlsl() noexcept {
-    // The depth offset is along the receiver's normal. A lookup reaches r + 1/2 texels to each side,
-    // over which a plane at angle a to the light rises sqrt(2) (r + 1/2) t tan(a); moving the
-    // receiver by o along its normal clears o / cos(a). The small constant covers rounding where the
-    // plane faces the light. Source: Daniel Holbert. Saying Goodbye to Shadow Acne. GDC 2011.
+    // The depth offset is along the receiver's normal. A lookup reaches r + 1/2 texels to each
+    // side, over which a plane at angle a to the light rises sqrt(2) (r + 1/2) t tan(a); moving the
+    // receiver by o along its normal clears o / cos(a). The small constant covers rounding where
+    // the plane faces the light. Source: Daniel Holbert. Saying Goodbye to Shadow Acne. GDC 2011.
     return R"glsl(
 struct ShadowMap {
     mat4 clipFromOrigin;

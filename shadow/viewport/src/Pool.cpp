@@ -12,7 +12,8 @@ int ShadowMaps::Pool::take() {
 }
 
 void ShadowMaps::Pool::grow() {
-    const std::uint64_t layers = std::max<std::uint64_t>(1, layers_ < 4 ? layers_ * 2 : layers_ + 4);
+    const std::uint64_t layers =
+        std::max<std::uint64_t>(1, layers_ < 4 ? layers_ * 2 : layers_ + 4);
     gl::Texture larger{gl_, GLenum{GL_TEXTURE_2D_ARRAY}};
     larger.label("shadow pages");
     gl_.TextureStorage3D(larger.id(), 1, GL_DEPTH_COMPONENT32F, side(), side(),

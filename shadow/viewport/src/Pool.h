@@ -15,7 +15,8 @@ public:
     int pageSize() const noexcept { return pageSize_; }
     GLuint texture() const noexcept { return texture_.id(); }
     std::uint64_t bytes() const noexcept {
-        return static_cast<std::uint64_t>(side()) * static_cast<std::uint64_t>(side()) * 4U * layers_;
+        return static_cast<std::uint64_t>(side()) * static_cast<std::uint64_t>(side()) * 4U *
+               layers_;
     }
     int take();
     void give(int layer) { free_.push_back(layer); }

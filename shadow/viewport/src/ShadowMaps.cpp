@@ -2,10 +2,10 @@
 #include <gnomon/shadow/Filter.h>
 #include <gnomon/shadow/ShadowMaps.h>
 
-#include "Pool.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "Pool.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -31,7 +31,8 @@ math::Rect pageRect(int x, int y, int pageSize, int mapSize) {
 
 /// Larger side of a texel of the map, in metres, where clip w is 1.
 double texelMetres(const math::dmat4& clipFromWorld, int mapSize) {
-    // Rows of the linear part: moving one metre along row x's direction moves |row x| in clip units.
+    // Rows of the linear part: moving one metre along row x's direction moves |row x| in clip
+    // units.
     const math::dmat4 rows = glm::transpose(clipFromWorld);
     const double x = glm::length(math::dvec3{rows[0]});
     const double y = glm::length(math::dvec3{rows[1]});
@@ -229,9 +230,9 @@ ShadowStatistics ShadowMaps::prepare(std::span<const scene::ShadowState* const> 
                                         static_cast<std::uint64_t>(pagePool.side());
                 }
             }
-            const auto looked = static_cast<std::uint64_t>(
-                std::max(0, wanted.right - wanted.left + 1) *
-                std::max(0, wanted.top - wanted.bottom + 1));
+            const auto looked =
+                static_cast<std::uint64_t>(std::max(0, wanted.right - wanted.left + 1) *
+                                           std::max(0, wanted.top - wanted.bottom + 1));
             done.pagesUnseen += static_cast<std::uint64_t>(side * side) - looked;
             blocks_.push_back(
                 {.clipFromOrigin = math::mat4{clipFromOrigin},

@@ -75,5 +75,4 @@ namespace detail {
 
 /// Stops the program when a caller broke a contract: a bug of ours, never bad input.
 #define GNOMON_EXPECTS(condition, why) \
-    ((condition) ? void(0)             \
-                 : ::gnomon::detail::contractBroken(#condition, why, __FILE__, __LINE__))
+    ((condition) ? void(0) : ::gnomon::detail::contractBroken(#condition, why, __FILE__, __LINE__))

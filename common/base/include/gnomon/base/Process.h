@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gnomon/base/Error.h>
 #include <sys/types.h>
 
 #include <chrono>
@@ -8,8 +9,6 @@
 #include <string>
 #include <vector>
 
-#include <gnomon/base/Error.h>
-
 namespace gnomon {
 
 /// Folder of the running program: where its sister programs lie.
@@ -17,8 +16,8 @@ std::filesystem::path programFolder();
 
 /// How a child process starts. It dies with its parent (PR_SET_PDEATHSIG), so none is orphaned.
 struct ChildOptions {
-    std::vector<std::string> arguments = {};    ///< arguments[0] is the program's path
-    std::vector<std::string> environment = {};  ///< `NAME=value`, added to ours
+    std::vector<std::string> arguments = {};        ///< arguments[0] is the program's path
+    std::vector<std::string> environment = {};      ///< `NAME=value`, added to ours
     std::optional<std::uint64_t> memoryLimit = {};  ///< address space, bytes
     std::optional<std::chrono::seconds> cpuLimit = {};
     bool keepStderr = false;  ///< true: stderr is ours; false: it is read by takeStderr()
@@ -35,8 +34,8 @@ public:
     Child& operator=(const Child&) = delete;
 
     pid_t pid() const noexcept { return pid_; }
-    int output() const noexcept { return out_; }      ///< reads its standard output
-    int errors() const noexcept { return err_; }      ///< reads its standard error; -1 if kept
+    int output() const noexcept { return out_; }  ///< reads its standard output
+    int errors() const noexcept { return err_; }  ///< reads its standard error; -1 if kept
     void signal(int number) const noexcept;
     /// The raw wait status once it ended; nothing while it runs.
     std::optional<int> ended() noexcept;

@@ -24,14 +24,22 @@ struct ScalarTraits {
     static T read(Reader& from) { return from.scalar<T>(); }
 };
 
-template <> struct FieldTraits<bool> : ScalarTraits<bool, 'b'> {};
-template <> struct FieldTraits<std::uint8_t> : ScalarTraits<std::uint8_t, 'B'> {};
-template <> struct FieldTraits<std::int32_t> : ScalarTraits<std::int32_t, 'i'> {};
-template <> struct FieldTraits<std::uint32_t> : ScalarTraits<std::uint32_t, 'u'> {};
-template <> struct FieldTraits<std::int64_t> : ScalarTraits<std::int64_t, 'I'> {};
-template <> struct FieldTraits<std::uint64_t> : ScalarTraits<std::uint64_t, 'U'> {};
-template <> struct FieldTraits<float> : ScalarTraits<float, 'f'> {};
-template <> struct FieldTraits<double> : ScalarTraits<double, 'd'> {};
+template <>
+struct FieldTraits<bool> : ScalarTraits<bool, 'b'> {};
+template <>
+struct FieldTraits<std::uint8_t> : ScalarTraits<std::uint8_t, 'B'> {};
+template <>
+struct FieldTraits<std::int32_t> : ScalarTraits<std::int32_t, 'i'> {};
+template <>
+struct FieldTraits<std::uint32_t> : ScalarTraits<std::uint32_t, 'u'> {};
+template <>
+struct FieldTraits<std::int64_t> : ScalarTraits<std::int64_t, 'I'> {};
+template <>
+struct FieldTraits<std::uint64_t> : ScalarTraits<std::uint64_t, 'U'> {};
+template <>
+struct FieldTraits<float> : ScalarTraits<float, 'f'> {};
+template <>
+struct FieldTraits<double> : ScalarTraits<double, 'd'> {};
 
 template <>
 struct FieldTraits<std::string> {
@@ -65,7 +73,7 @@ struct FieldTraits<Payload> {
 /// Enumerations travel as u32. A value the receiver does not know is clamped to the last one it
 /// does, which the enumeration names `last`.
 template <class T>
-    requires std::is_enum_v<T>
+requires std::is_enum_v<T>
 struct FieldTraits<T> {
     static constexpr std::string_view layout = "u";
     static void write(Writer& to, T value) { to.scalar(static_cast<std::uint32_t>(value)); }
@@ -85,13 +93,21 @@ constexpr std::size_t minimumBytes(std::string_view layout) noexcept {
     for (const char letter : layout) {
         switch (letter) {
             case 'b':
-            case 'B': total += 1; break;
+            case 'B':
+                total += 1;
+                break;
             case 'i':
             case 'u':
             case 'f':
-            case 's': total += 4; break;
-            case 'p': total += 24; break;
-            default: total += 8; break;
+            case 's':
+                total += 4;
+                break;
+            case 'p':
+                total += 24;
+                break;
+            default:
+                total += 8;
+                break;
         }
     }
     return total;

@@ -45,8 +45,9 @@ struct Ref {
     friend constexpr bool operator==(const Ref&, const Ref&) = default;
 };
 
-/// Names a container without holding it: it may be destroyed, and the name then resolves to nothing.
-/// For a writer that speaks of another writer's containers, whose end it learns of only afterwards.
+/// Names a container without holding it: it may be destroyed, and the name then resolves to
+/// nothing. For a writer that speaks of another writer's containers, whose end it learns of only
+/// afterwards.
 template <class T>
 struct WeakRef {
     Id id = {};

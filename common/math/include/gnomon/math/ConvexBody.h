@@ -17,8 +17,8 @@ public:
     explicit ConvexBody(const Box& box);
 
     bool empty() const noexcept { return faces_.empty(); }
-    /// Keeps what is inside the plane. Sutherland and Hodgman's clip of each face; the cut is closed
-    /// with the polygon of the new edges' end points.
+    /// Keeps what is inside the plane. Sutherland and Hodgman's clip of each face; the cut is
+    /// closed with the polygon of the new edges' end points.
     void clip(const Plane& plane);
     void clip(const Box& box);
     /// Every corner, once per face it belongs to.

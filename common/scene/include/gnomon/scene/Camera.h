@@ -65,11 +65,10 @@ public:
     Field<Ref<Navigation>> navigation;
     Field<Eye> eye;
     static constexpr auto fields() {
-        return std::tuple{entry("decoratee", &ScreenDecorator::decoratee),
-                          entry("screen", &ScreenDecorator::screen),
-                          entry("user", &ScreenDecorator::user),
-                          entry("navigation", &ScreenDecorator::navigation),
-                          entry("eye", &ScreenDecorator::eye)};
+        return std::tuple{
+            entry("decoratee", &ScreenDecorator::decoratee),
+            entry("screen", &ScreenDecorator::screen), entry("user", &ScreenDecorator::user),
+            entry("navigation", &ScreenDecorator::navigation), entry("eye", &ScreenDecorator::eye)};
     }
 };
 

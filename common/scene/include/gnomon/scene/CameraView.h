@@ -7,9 +7,9 @@ namespace gnomon::scene {
 
 /// What a camera with all its decorators shows.
 struct CameraView {
-    math::View view = {};   ///< as decorated: what is drawn
-    math::View whole = {};  ///< without tile decorators: what the whole screen or window shows
-    math::Rect part = {};   ///< which part of the whole that is
+    math::View view = {};     ///< as decorated: what is drawn
+    math::View whole = {};    ///< without tile decorators: what the whole screen or window shows
+    math::Rect part = {};     ///< which part of the whole that is
     double worldScale = 1.0;  ///< metres of the world to a metre of the room
     /// The screen, else the innermost camera: whoever shares it belongs to one fit group.
     Ref<field::FieldContainer> group = {};

@@ -28,8 +28,8 @@ public:
         std::uint32_t place = 0;
         std::uint64_t lights = 0;  ///< bit i: lit by lights()[i]
         bool castsShadow = true;
-        bool mirrored = false;     ///< negative determinant: front faces are clockwise
-        math::Box bounds = {};     ///< world
+        bool mirrored = false;  ///< negative determinant: front faces are clockwise
+        math::Box bounds = {};  ///< world
     };
     struct LightUse {
         const Node* node = nullptr;

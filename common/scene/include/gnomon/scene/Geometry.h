@@ -37,16 +37,12 @@ public:
     Field<math::vec3> boundsMax;
 
     static constexpr auto fields() {
-        return std::tuple{entry("primitive", &Geometry::primitive),
-                          entry("positions", &Geometry::positions),
-                          entry("normals", &Geometry::normals),
-                          entry("texCoords", &Geometry::texCoords),
-                          entry("tangents", &Geometry::tangents),
-                          entry("colors", &Geometry::colors),
-                          entry("indices", &Geometry::indices),
-                          entry("chunks", &Geometry::chunks),
-                          entry("boundsMin", &Geometry::boundsMin),
-                          entry("boundsMax", &Geometry::boundsMax)};
+        return std::tuple{
+            entry("primitive", &Geometry::primitive), entry("positions", &Geometry::positions),
+            entry("normals", &Geometry::normals),     entry("texCoords", &Geometry::texCoords),
+            entry("tangents", &Geometry::tangents),   entry("colors", &Geometry::colors),
+            entry("indices", &Geometry::indices),     entry("chunks", &Geometry::chunks),
+            entry("boundsMin", &Geometry::boundsMin), entry("boundsMax", &Geometry::boundsMax)};
     }
 };
 

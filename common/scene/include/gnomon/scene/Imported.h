@@ -15,16 +15,15 @@ public:
     Field<Ref<Transform>> target;
     Field<Path> path;
     Field<Interpolation> interpolation;
-    Field<Payload> times;   ///< float seconds, strictly ascending, finite
+    Field<Payload> times;  ///< float seconds, strictly ascending, finite
     /// float: 3 a key (translation, scale) or 4 (rotation, quaternion x y z w); three times that
     /// for cubicSpline (in-tangent, value, out-tangent), as glTF's.
     Field<Payload> values;
     static constexpr auto fields() {
-        return std::tuple{entry("target", &AnimationChannel::target),
-                          entry("path", &AnimationChannel::path),
-                          entry("interpolation", &AnimationChannel::interpolation),
-                          entry("times", &AnimationChannel::times),
-                          entry("values", &AnimationChannel::values)};
+        return std::tuple{
+            entry("target", &AnimationChannel::target), entry("path", &AnimationChannel::path),
+            entry("interpolation", &AnimationChannel::interpolation),
+            entry("times", &AnimationChannel::times), entry("values", &AnimationChannel::values)};
     }
 };
 
@@ -53,8 +52,7 @@ public:
     Field<float> duration;  ///< seconds, the largest key
     MultiField<Ref<AnimationChannel>> channels;
     static constexpr auto fields() {
-        return std::tuple{entry("name", &Animation::name),
-                          entry("duration", &Animation::duration),
+        return std::tuple{entry("name", &Animation::name), entry("duration", &Animation::duration),
                           entry("channels", &Animation::channels)};
     }
 };
@@ -71,7 +69,7 @@ public:
     MultiField<Ref<PerspectiveCamera>> cameras;  ///< with their beacons
     MultiField<Ref<Node>> lights;                ///< nodes whose core is a light
     MultiField<std::string> warnings;            ///< what was left out, and why
-    Field<math::dvec3> boundsMin;                ///< of everything drawn, world space; min > max: nothing
+    Field<math::dvec3> boundsMin;  ///< of everything drawn, world space; min > max: nothing
     Field<math::dvec3> boundsMax;
     Field<std::uint64_t> trianglesDrawn;
     static constexpr auto fields() {

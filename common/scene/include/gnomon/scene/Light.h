@@ -11,19 +11,21 @@ public:
     Field<bool> on{true};
     Field<Ref<Node>> beacon;
     Field<math::vec3> color{math::vec3{1.0F}};  ///< linear RGB
-    Field<float> intensity{1.0F};               ///< a surface of albedo 1 facing it at attenuation 1 gets this radiance
-    Field<math::vec3> ambient;                  ///< added everywhere it lights, not attenuated
+    Field<float> intensity{
+        1.0F};  ///< a surface of albedo 1 facing it at attenuation 1 gets this radiance
+    Field<math::vec3> ambient;  ///< added everywhere it lights, not attenuated
     Field<bool> castsShadow{true};
 
 protected:
     template <class Self>
     static constexpr auto lightFields() {
-        return std::tuple{entry("on", static_cast<Field<bool> Self::*>(&Light::on)),
-                          entry("beacon", static_cast<Field<Ref<Node>> Self::*>(&Light::beacon)),
-                          entry("color", static_cast<Field<math::vec3> Self::*>(&Light::color)),
-                          entry("intensity", static_cast<Field<float> Self::*>(&Light::intensity)),
-                          entry("ambient", static_cast<Field<math::vec3> Self::*>(&Light::ambient)),
-                          entry("castsShadow", static_cast<Field<bool> Self::*>(&Light::castsShadow))};
+        return std::tuple{
+            entry("on", static_cast<Field<bool> Self::*>(&Light::on)),
+            entry("beacon", static_cast<Field<Ref<Node>> Self::*>(&Light::beacon)),
+            entry("color", static_cast<Field<math::vec3> Self::*>(&Light::color)),
+            entry("intensity", static_cast<Field<float> Self::*>(&Light::intensity)),
+            entry("ambient", static_cast<Field<math::vec3> Self::*>(&Light::ambient)),
+            entry("castsShadow", static_cast<Field<bool> Self::*>(&Light::castsShadow))};
     }
 };
 
@@ -47,10 +49,10 @@ public:
     Field<float> range;   ///< metres
     Field<float> radius;  ///< of the sphere it comes from, metres
     static constexpr auto fields() {
-        return std::tuple_cat(lightFields<PointLight>(),
-                              std::tuple{entry("attenuation", &PointLight::attenuation),
-                                         entry("range", &PointLight::range),
-                                         entry("radius", &PointLight::radius)});
+        return std::tuple_cat(
+            lightFields<PointLight>(),
+            std::tuple{entry("attenuation", &PointLight::attenuation),
+                       entry("range", &PointLight::range), entry("radius", &PointLight::radius)});
     }
 };
 
@@ -65,12 +67,12 @@ public:
     Field<float> innerAngle{0.0F};
     Field<float> outerAngle{0.7853982F};
     static constexpr auto fields() {
-        return std::tuple_cat(lightFields<SpotLight>(),
-                              std::tuple{entry("attenuation", &SpotLight::attenuation),
-                                         entry("range", &SpotLight::range),
-                                         entry("radius", &SpotLight::radius),
-                                         entry("innerAngle", &SpotLight::innerAngle),
-                                         entry("outerAngle", &SpotLight::outerAngle)});
+        return std::tuple_cat(
+            lightFields<SpotLight>(),
+            std::tuple{entry("attenuation", &SpotLight::attenuation),
+                       entry("range", &SpotLight::range), entry("radius", &SpotLight::radius),
+                       entry("innerAngle", &SpotLight::innerAngle),
+                       entry("outerAngle", &SpotLight::outerAngle)});
     }
 };
 

@@ -10,20 +10,21 @@ public:
     static constexpr std::string_view typeName = "Texture";
     enum class Wrap { repeat, mirror, clamp, last = clamp };
 
-    Field<Payload> pixels;  ///< rgba8, top row first
-    Field<glm::ivec2> size; ///< pixels
-    Field<bool> srgb;       ///< colour data; false for normal maps
+    Field<Payload> pixels;   ///< rgba8, top row first
+    Field<glm::ivec2> size;  ///< pixels
+    Field<bool> srgb;        ///< colour data; false for normal maps
     Field<Wrap> wrapS;
     Field<Wrap> wrapT;
     Field<bool> mipmaps{true};
-    Field<bool> nearest;    ///< no interpolation
+    Field<bool> nearest;  ///< no interpolation
     Field<float> anisotropy{8.0F};
 
     static constexpr auto fields() {
-        return std::tuple{entry("pixels", &Texture::pixels),   entry("size", &Texture::size),
-                          entry("srgb", &Texture::srgb),       entry("wrapS", &Texture::wrapS),
-                          entry("wrapT", &Texture::wrapT),     entry("mipmaps", &Texture::mipmaps),
-                          entry("nearest", &Texture::nearest), entry("anisotropy", &Texture::anisotropy)};
+        return std::tuple{
+            entry("pixels", &Texture::pixels),   entry("size", &Texture::size),
+            entry("srgb", &Texture::srgb),       entry("wrapS", &Texture::wrapS),
+            entry("wrapT", &Texture::wrapT),     entry("mipmaps", &Texture::mipmaps),
+            entry("nearest", &Texture::nearest), entry("anisotropy", &Texture::anisotropy)};
     }
 };
 
@@ -41,7 +42,7 @@ public:
     Field<math::vec3> emissive;
     Field<float> shininess{32.0F};
     Field<Ref<Texture>> diffuseMap;
-    Field<Ref<Texture>> normalMap;   ///< tangent space, +y up
+    Field<Ref<Texture>> normalMap;  ///< tangent space, +y up
     Field<float> normalScale{1.0F};
     Field<Ref<Texture>> emissiveMap;
     Field<Alpha> alpha;

@@ -88,12 +88,12 @@ public:
     Field<std::string> technique{"std"};
     Field<std::int32_t> mapSize{512};  ///< texels a side; larger maps are drawn in pages
     Field<math::vec4> shadowColor{math::vec4{0.0F, 0.0F, 0.0F, 1.0F}};  ///< rgb, a = darkness
-    Field<float> range{0.3F};          ///< focus region, 0 < range < 0.8
+    Field<float> range{0.3F};  ///< focus region, 0 < range < 0.8
     Field<bool> qualityMode;
-    Field<float> offBias{4.0F};        ///< with overrideBias: constant offset, units of depth resolution
-    Field<float> offFactor{10.0F};     ///< with overrideBias: factor of the slope
-    Field<bool> overrideBias;          ///< false: the offset is derived for each receiver
-    MultiField<Ref<Node>> lightNodes;  ///< empty: found by traversal
+    Field<float> offBias{4.0F};  ///< with overrideBias: constant offset, units of depth resolution
+    Field<float> offFactor{10.0F};       ///< with overrideBias: factor of the slope
+    Field<bool> overrideBias;            ///< false: the offset is derived for each receiver
+    MultiField<Ref<Node>> lightNodes;    ///< empty: found by traversal
     MultiField<Ref<Node>> excludeNodes;  ///< subtrees that cast no shadow
 
     static constexpr auto fields() {
@@ -104,8 +104,7 @@ public:
                        entry("mapSize", &V::mapSize), entry("shadowColor", &V::shadowColor),
                        entry("range", &V::range), entry("qualityMode", &V::qualityMode),
                        entry("offBias", &V::offBias), entry("offFactor", &V::offFactor),
-                       entry("overrideBias", &V::overrideBias),
-                       entry("lightNodes", &V::lightNodes),
+                       entry("overrideBias", &V::overrideBias), entry("lightNodes", &V::lightNodes),
                        entry("excludeNodes", &V::excludeNodes)});
     }
 };
@@ -120,8 +119,8 @@ public:
     Field<glm::ivec2> position;
     Field<bool> fullscreen;
     Field<std::int32_t> monitor;
-    Field<std::int32_t> gpu{-1};      ///< -1: the server's
-    Field<std::int32_t> samples{1};   ///< multisampling, 1 is off
+    Field<std::int32_t> gpu{-1};     ///< -1: the server's
+    Field<std::int32_t> samples{1};  ///< multisampling, 1 is off
     MultiField<Ref<Viewport>> viewports;
     static constexpr auto fields() {
         return std::tuple{entry("server", &Window::server),

@@ -16,27 +16,27 @@ namespace gnomon::render {
 
 /// What drawing a window took. Counts do not depend on the machine's mood.
 struct FrameStatistics {
-    std::uint64_t triangles = 0;        ///< colour passes
+    std::uint64_t triangles = 0;  ///< colour passes
     std::uint64_t chunks = 0;
     std::uint64_t chunksCulled = 0;
     std::uint64_t shadowTriangles = 0;
     std::uint64_t pagesDrawn = 0;
     std::uint64_t pagesKept = 0;
     std::uint64_t pagesUnseen = 0;
-    std::uint64_t mapTexels = 0;        ///< drawn this frame
-    std::uint64_t mapBytes = 0;         ///< held
+    std::uint64_t mapTexels = 0;  ///< drawn this frame
+    std::uint64_t mapBytes = 0;   ///< held
     int lights = 0;
-    int lightsLeftOut = 0;              ///< more than a view can have
-    int degenerate = 0;                 ///< fits that fell back to the plain one
+    int lightsLeftOut = 0;  ///< more than a view can have
+    int degenerate = 0;     ///< fits that fell back to the plain one
     /// Only with measurePasses: each ends with glFinish.
     double shadowMs = 0.0;
     double colorMs = 0.0;
     double overlayMs = 0.0;
 };
 
-/// Draws the windows of a replicated scene with one context. Owns everything it makes there and must
-/// die before the context, with it current. Nothing is allocated, compiled or looked up by name in
-/// a frame that does not need it.
+/// Draws the windows of a replicated scene with one context. Owns everything it makes there and
+/// must die before the context, with it current. Nothing is allocated, compiled or looked up by
+/// name in a frame that does not need it.
 class Renderer {
 public:
     /// @param report  told once of each thing that cannot be drawn as asked.

@@ -60,7 +60,8 @@ struct TechniqueName {
     bool none() const noexcept { return fit.empty(); }
 };
 /// Errors (Errc::config) name the words that would have done.
-Result<TechniqueName> parseTechnique(std::string_view text, std::span<const std::string_view> filters);
+Result<TechniqueName> parseTechnique(std::string_view text,
+                                     std::span<const std::string_view> filters);
 
 /// What the light can reach of what is seen: corners of (view volume, cut by the scene's bounds and
 /// by a spot's frustum), over all views. Empty: nothing to shadow.

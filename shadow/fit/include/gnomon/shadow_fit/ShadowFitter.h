@@ -1,9 +1,9 @@
 #pragma once
 
 #include <gnomon/scene/FlatScene.h>
-#include <gnomon/shadow_fit/Fit.h>
 #include <gnomon/scene/ShadowState.h>
 #include <gnomon/scene/Window.h>
+#include <gnomon/shadow_fit/Fit.h>
 
 #include <cstdint>
 #include <functional>
@@ -59,7 +59,8 @@ private:
     std::uint64_t round_ = 0;
 };
 
-/// A light's place and kind, in world space. Where its beacon has no usable direction, straight down.
+/// A light's place and kind, in world space. Where its beacon has no usable direction, straight
+/// down.
 LightShape lightShape(const scene::FlatScene::LightUse& use);
 
 }  // namespace gnomon::shadow_fit

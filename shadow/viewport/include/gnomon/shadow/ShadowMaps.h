@@ -30,11 +30,11 @@ public:
 
 struct ShadowStatistics {
     std::uint64_t pagesDrawn = 0;
-    std::uint64_t pagesKept = 0;     ///< looked up, unchanged since they were drawn
-    std::uint64_t pagesUnseen = 0;   ///< of these maps, that this view does not look up
+    std::uint64_t pagesKept = 0;    ///< looked up, unchanged since they were drawn
+    std::uint64_t pagesUnseen = 0;  ///< of these maps, that this view does not look up
     std::uint64_t texelsDrawn = 0;
     std::uint64_t triangles = 0;
-    std::uint64_t bytes = 0;         ///< of all pages held
+    std::uint64_t bytes = 0;  ///< of all pages held
     int degenerate = 0;
 };
 
@@ -45,11 +45,11 @@ struct ShadowStatistics {
 /// looks it up and its fit or what casts into it has changed since.
 class ShadowMaps {
 public:
-    static constexpr int maxMaps = 128;        ///< a frame and viewport
+    static constexpr int maxMaps = 128;  ///< a frame and viewport
     static constexpr int maxTableEntries = 4096;
-    static constexpr GLuint mapsBinding = 4;   ///< uniform buffers
+    static constexpr GLuint mapsBinding = 4;  ///< uniform buffers
     static constexpr GLuint tableBinding = 5;
-    static constexpr GLuint pagesUnit = 8;     ///< texture unit
+    static constexpr GLuint pagesUnit = 8;  ///< texture unit
 
     explicit ShadowMaps(const gl::Api& gl);
     ~ShadowMaps();
