@@ -18,6 +18,7 @@ field::TypeRegistry RenderTest::sceneTypes() {
 void RenderTest::SetUp() {
     GLTest::SetUp();
     if (HasFatalFailure()) return;
+    edit(world)->addChild(root);
     renderer = std::make_unique<Renderer>(
         context(), server, [this](std::string text) { complaints.push_back(std::move(text)); });
 }

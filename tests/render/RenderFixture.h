@@ -84,6 +84,8 @@ protected:
     shadow_fit::ShadowFitter fitter{[this](std::string text) { complaints.push_back(text); }};
     std::unique_ptr<Renderer> renderer;
     std::vector<std::string> complaints;
+    /// Holds the root, so that a window that goes does not take the scene along.
+    const scene::Node& world = app.create<scene::Node>();
     const scene::Node& root = app.create<scene::Node>();
 
 private:

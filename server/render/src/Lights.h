@@ -20,7 +20,7 @@ public:
         int count = 0;
         int directional = 0;   ///< the first of them
         bool scoped = false;   ///< some surface is not lit by all of them
-        int mapsPerLight = 0;  ///< the largest number of shadow maps of a light
+        shadow::ShadowMaps::Arranged maps = {};
     };
     /// Writes what reaches the view; binds both blocks, and the shadow maps in the lights' order.
     /// @param only  -1: all that are on; else just this one, at index 0, on or off.

@@ -28,6 +28,7 @@ std::string definesFor(const Variant& v) {
     define((v.features & Variant::unlit) != 0, "UNLIT");
     define((v.features & Variant::scopedLights) != 0, "SCOPED_LIGHTS");
     define((v.features & Variant::shadows) != 0, "SHADOWS");
+    define((v.features & Variant::pagedMaps) != 0, "PAGED_MAPS");
     define(v.pass == Variant::Pass::depth, "DEPTH_ONLY");
     const auto calls = [&](const char* list, const char* call, int first, int count) {
         text += std::string{"#define "} + list;
@@ -110,7 +111,7 @@ GLuint Programs::combine(int mapsPerLight) {
     gl::Program& program = combine_[mapsPerLight];
     if (program) return program.id();
     const std::string defines =
-        "#define SHADOWS\n#define MAPS_PER_LIGHT " + std::to_string(mapsPerLight) + "\n";
+        "#define SHADOWS\n#define PAGED_MAPS\n#define MAPS_PER_LIGHT " + std::to_string(mapsPerLight) + "\n";
     program = mapsPerLight > 0 ? build("combine", defines, glsl::coverVertex(),
                                        {glsl::meshCommon(), shadow::lookupGlsl(),
                                         shadow::findFilter(filter_)->glsl, glsl::combine()})

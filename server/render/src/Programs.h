@@ -24,6 +24,7 @@ struct Variant {
         scopedLights = 32,
         shadows = 64,
         manyLights = 128,  ///< more lights than are written out
+        pagedMaps = 256,   ///< some shadow map has several pages
     };
     static constexpr int maxDirectional = 4;  ///< directional lights a program is written out for
     static constexpr int maxOther = 8;        ///< and others

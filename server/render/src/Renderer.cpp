@@ -276,7 +276,7 @@ Result<void> Renderer::Parts::drawViewport(const scene::Window& window,
         .eyeFromWorld = seen.camera.view.eyeFromWorld,
         .eyeWorld = seen.camera.view.eyeWorld(),
         .scopedLights = lit.scoped,
-        .mapsPerLight = lit.mapsPerLight,
+        .maps = lit.maps,
         .lights = lit.count,
         .directionalLights = lit.directional,
         .time = time};
@@ -286,7 +286,7 @@ Result<void> Renderer::Parts::drawViewport(const scene::Window& window,
         done.chunksCulled += drawn.chunksCulled;
     };
     count(drawer.drawOpaque(pass));
-    if (foreign) combine(target, seen, lit.mapsPerLight);
+    if (foreign) combine(target, seen, lit.maps.mapsPerLight);
     overlay.drawBackground(scene, viewport, seen.camera.part);
     count(drawer.drawBlended(pass));
     done.colorMs += lap(clock);
@@ -401,7 +401,7 @@ Result<image::Image> Renderer::shadowFactor(const scene::Window& window, std::si
                        .clipFromWorld = seen.camera.view.clipFromWorld(),
                        .eyeFromWorld = seen.camera.view.eyeFromWorld,
                        .eyeWorld = seen.camera.view.eyeWorld(),
-                       .mapsPerLight = lit.mapsPerLight});
+                       .maps = lit.maps});
     image::Image picture = image::blank(at.width, at.height, 1);
     gl.ReadPixels(0, 0, at.width, at.height, GL_RED, GL_UNSIGNED_BYTE, picture.pixels.data());
     turnOver(picture);

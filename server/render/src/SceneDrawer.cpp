@@ -3,6 +3,16 @@
 #include <algorithm>
 
 namespace gnomon::render {
+namespace {
+
+void useMaps(Variant& variant, const SceneDrawer::ColorPass& pass) {
+    if (pass.maps.mapsPerLight == 0) return;
+    variant.mapsPerLight = pass.maps.mapsPerLight;
+    variant.features |= Variant::shadows;
+    if (pass.maps.paged) variant.features |= Variant::pagedMaps;
+}
+
+}  // namespace
 
 SceneDrawer::SceneDrawer(const gl::Api& gl, const field::Aspect& aspect, MeshStore& meshes,
                          TextureStore& textures, Programs& programs)
@@ -149,8 +159,7 @@ void SceneDrawer::flush(std::span<const BatchState> states,
 void SceneDrawer::useSurface(const BatchState& state, const ColorPass& pass) {
     Variant variant{.format = state.format, .features = state.features};
     if (pass.scopedLights) variant.features |= Variant::scopedLights;
-    if (pass.mapsPerLight > 0) variant.features |= Variant::shadows;
-    variant.mapsPerLight = pass.mapsPerLight;
+    useMaps(variant, pass);
     variant.directionalLights = std::min(pass.directionalLights, Variant::maxDirectional);
     variant.otherLights = pass.lights - variant.directionalLights;
     if (variant.otherLights > Variant::maxOther) {
@@ -266,8 +275,7 @@ void SceneDrawer::drawFactor(const ColorPass& pass) {
                 .pass = Variant::Pass::factor,
                 .format = state.format,
                 .features = state.features & (Variant::alphaMask | Variant::diffuseMap)};
-            if (pass.mapsPerLight > 0) variant.features |= Variant::shadows;
-            variant.mapsPerLight = pass.mapsPerLight;
+            useMaps(variant, pass);
             const GLuint program = programs_.mesh(variant);
             gl_.UseProgram(program);
             gl_.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, &pass.clipFromOrigin[0][0]);

@@ -41,7 +41,7 @@ public:
         math::dmat4 eyeFromWorld{1.0};
         math::dvec3 eyeWorld{0.0};
         bool scopedLights = false;
-        int mapsPerLight = 0;  ///< 0: no shadows
+        shadow::ShadowMaps::Arranged maps = {};
         int lights = 0;
         int directionalLights = 0;  ///< the first of them
         double time = 0.0;

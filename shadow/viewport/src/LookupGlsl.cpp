@@ -21,15 +21,16 @@ const uint pageMissing = 0xffffffffu;
 
 // Bilinear comparison at a position in texels of the map. Lit where nothing was drawn.
 float pageCompare(uint map, vec2 texel, float depth) {
-    uint side = shadowMaps[map].pages.x;
     float pageSize = shadowMaps[map].texel.w;
+#ifdef PAGED_MAPS
+    uint side = shadowMaps[map].pages.x;
+    uvec2 page = uvec2(clamp(texel / pageSize, vec2(0.0), vec2(float(side) - 1.0)));
+    uint entry = shadowMaps[map].pages.y + page.y * side + page.x;
+    uint layer = pageTable[entry >> 2u][entry & 3u];
+    texel -= vec2(page) * pageSize;
+#else
     uint layer = shadowMaps[map].pages.z;
-    if (side > 1u) {
-        uvec2 page = uvec2(clamp(texel / pageSize, vec2(0.0), vec2(float(side) - 1.0)));
-        uint entry = shadowMaps[map].pages.y + page.y * side + page.x;
-        layer = pageTable[entry >> 2u][entry & 3u];
-        texel -= vec2(page) * pageSize;
-    }
+#endif
     if (layer == pageMissing) return 1.0;
     return texture(shadowPages, vec4((texel + 1.0) / (pageSize + 2.0), float(layer), depth));
 }

@@ -258,14 +258,14 @@ std::uint32_t ShadowMaps::count(field::Id light) const {
     return found == ranges_.end() ? 0U : found->second.count;
 }
 
-int ShadowMaps::arrange(std::span<const field::Id> lights) {
+ShadowMaps::Arranged ShadowMaps::arrange(std::span<const field::Id> lights) {
     std::uint32_t most = 0;
     std::size_t last = 0;
     for (std::size_t i = 0; i < lights.size(); ++i) {
         most = std::max(most, count(lights[i]));
         if (count(lights[i]) > 0) last = i + 1;
     }
-    if (most == 0) return 0;
+    if (most == 0) return {};
     arranged_.assign(std::min<std::size_t>(last * most, maxMaps), MapBlock{});
     for (std::size_t i = 0; i < last; ++i) {
         const auto found = ranges_.find(lights[i]);
@@ -280,7 +280,9 @@ int ShadowMaps::arrange(std::span<const field::Id> lights) {
     gl_.BindBufferBase(GL_UNIFORM_BUFFER, tableBinding, tableBuffer_.id());
     gl_.BindTextureUnit(pagesUnit, bound_ == nullptr ? 0 : bound_->texture());
     gl_.BindSampler(pagesUnit, compare_.id());
-    return static_cast<int>(most);
+    return {.mapsPerLight = static_cast<int>(most),
+            .paged = std::any_of(arranged_.begin(), arranged_.end(),
+                                 [](const MapBlock& block) { return block.pages.x > 1; })};
 }
 
 }  // namespace gnomon::shadow

@@ -66,11 +66,15 @@ public:
     ShadowStatistics prepare(std::span<const scene::ShadowState* const> states,
                              const math::View& view, const math::Box& bounds,
                              CasterSource& casters);
+    /// How the lookup's text has to be specialised.
+    struct Arranged {
+        int mapsPerLight = 0;  ///< MAPS_PER_LIGHT; 0 where no light has a map
+        bool paged = false;    ///< PAGED_MAPS: some map has more than one page
+    };
     /// Puts the maps in the order of the lights that are shaded and binds maps, table and pages for
     /// the lookup. After prepare().
     /// @param lights  nodes; the maps of the i-th begin at i * maps per light
-    /// @return maps per light, 0 where no light has any: MAPS_PER_LIGHT for the lookup's text.
-    int arrange(std::span<const field::Id> lights);
+    Arranged arrange(std::span<const field::Id> lights);
     /// How many maps a light has, after prepare().
     std::uint32_t count(field::Id light) const;
 
