@@ -139,6 +139,11 @@ thread_local std::size_t AllocationWatch::largest = 0;
 }  // namespace
 }  // namespace gnomon::field::test
 
+#if defined(__GNUC__) && !defined(__clang__)
+// GCC inlines one of a pair and not the other, and then takes them for mismatched.
+#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
+#endif
+
 // Counted, because "allocates no more than the bytes justify" is a claim about this.
 void* operator new(std::size_t size) {
     auto& largest = gnomon::field::test::AllocationWatch::largest;

@@ -159,7 +159,7 @@ TEST_P(Refused, InOneLineThatSaysWhy) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Gltf, Refused, testing::ValuesIn(cases),
-                         [](const auto& info) { return std::string{info.param.name}; });
+                         [](const auto& row) { return std::string{row.param.name}; });
 
 TEST(Gltf, TakesTheFileThatTheRefusedOnesAreMadeOf) {
     EXPECT_EQ(refusal("a.gltf", written(nullptr)), "");

@@ -173,7 +173,7 @@ TEST_F(MaterialGLTest, AMirroredBoxIsThePictureOfTheBoxOnTheOtherSide) {
     const Mesh other = box(vec3{1.0F, 0.0F, -1.0F}, vec3{3.0F, 2.0F, 1.0F});
     {
         auto e = edit(mesh);
-        e->positions = field::Payload::of<vec3>(other.positions);
+        e->positions = payloadOf(other.positions);
         e->boundsMin = vec3{1.0F, 0.0F, -1.0F};
         e->boundsMax = vec3{3.0F, 2.0F, 1.0F};
         auto chunk = mesh.chunks[0];

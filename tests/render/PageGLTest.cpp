@@ -46,12 +46,12 @@ TEST_F(PageGLTest, AMovedCasterRedrawsThePagesItWasAndIsIn) {
     EXPECT_GT(after.pagesDrawn, 0U);
     EXPECT_LT(after.pagesDrawn, 16U) << "far pages hold nothing that moved";
     EXPECT_EQ(after.pagesDrawn + after.pagesKept, 16U);
-    const auto moved = renderer->read(copyOf(seen.window));
-    EXPECT_NE(before, moved);
+    const auto afterwards = renderer->read(copyOf(seen.window));
+    EXPECT_NE(before, afterwards);
     // Kept pages are as good as new ones.
     renderer->forgetShadows();
     EXPECT_EQ(draw(seen).pagesDrawn, 16U);
-    EXPECT_EQ(renderer->read(copyOf(seen.window)), moved);
+    EXPECT_EQ(renderer->read(copyOf(seen.window)), afterwards);
     place(-7.0);
     EXPECT_EQ(picture(seen), before);
 }
@@ -86,7 +86,7 @@ TEST_F(PageGLTest, AChangedMeshRedrawsItsShadow) {
     const Mesh larger = box(vec3{0.0F}, vec3{2.0F, 1.0F, 2.0F});
     {
         auto e = edit(instance);
-        e->positions = field::Payload::of<vec3>(larger.positions);
+        e->positions = payloadOf(larger.positions);
         auto chunk = instance.chunks[0];
         chunk.max = vec3{2.0F, 1.0F, 2.0F};
         e->chunks.set(0, chunk);

@@ -1,5 +1,6 @@
 #include "RenderFixture.h"
 
+#include <span>
 #include <algorithm>
 #include <cmath>
 
@@ -67,9 +68,9 @@ const scene::Geometry& RenderTest::add(const scene::Node& parent, const Mesh& me
         high = glm::max(high, p);
     }
     auto e = edit(made.core);
-    e->positions = field::Payload::of<vec3>(mesh.positions);
-    e->texCoords = field::Payload::of<vec2>(mesh.texCoords);
-    e->indices = field::Payload::of<std::uint32_t>(mesh.indices);
+    e->positions = payloadOf(mesh.positions);
+    e->texCoords = payloadOf(mesh.texCoords);
+    e->indices = payloadOf(mesh.indices);
     e->chunks.assign({scene::Chunk{.indexCount = static_cast<std::uint32_t>(mesh.indices.size()),
                                    .closed = closed,
                                    .min = low,

@@ -15,6 +15,13 @@
 
 namespace gnomon::render {
 
+/// GLM's vectors are plain floats, though not trivially copyable in the language's sense.
+template <class T>
+field::Payload payloadOf(const std::vector<T>& items) {
+    const auto bytes = std::as_bytes(std::span{items});
+    return field::Payload{std::vector<std::byte>(bytes.begin(), bytes.end())};
+}
+
 /// Renders scenes whose pictures geometry can foretell. As in a session: the application's changes
 /// go to the session, which fits shadows, and both go to the renderer's aspect.
 ///

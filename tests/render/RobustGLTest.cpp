@@ -79,7 +79,7 @@ TEST_F(RobustGLTest, ATextureWhosePixelsDoNotFitIsIgnored) {
     add(paint(sun.node, material).node, box(vec3{-1.0F, 0.0F, -1.0F}, vec3{1.0F, 2.0F, 1.0F}),
         true);
     const auto good = picture(top);
-    for (const glm::ivec2 size :
+    for (const glm::ivec2& size :
          {glm::ivec2{2, 2}, glm::ivec2{-4, -1}, glm::ivec2{0, 0}, glm::ivec2{1 << 30, 1 << 30}}) {
         const auto& texture = app.create<scene::Texture>();
         {

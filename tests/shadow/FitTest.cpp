@@ -178,7 +178,9 @@ TEST_P(EveryFit, DegenerateScenesGiveFiniteMapsOrNone) {
         }
         const Fitted fitted = info().fit(s.input());
         for (const FittedMap& map : fitted.maps) EXPECT_TRUE(math::isFinite(map.clipFromWorld));
-        if (s.scene.empty()) EXPECT_TRUE(fitted.maps.empty());
+        if (s.scene.empty()) {
+            EXPECT_TRUE(fitted.maps.empty());
+        }
     }
 }
 
