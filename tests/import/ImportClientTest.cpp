@@ -113,7 +113,7 @@ TEST_F(ImportClient, StopsAnImportThatNeedsTooMuchMemory) {
     writer.node({{"mesh", 0}});
     good_ = folder_.write("large.glb", writer.glb());
     EXPECT_TRUE(importScene(good_, options_));
-    options_.maxMemory = std::uint64_t{96} << 20U;  // the program alone needs most of it
+    options_.maxMemory = std::uint64_t{40} << 20U;  // the program alone needs most of it
     const auto error = failure();
     EXPECT_NE(error.what.find("memory"), std::string::npos) << error.what;
 }

@@ -83,7 +83,7 @@ TEST(Ply, RefusesHeadersWithFaults) {
         EXPECT_NE(said.find(why), std::string::npos) << said;
     };
     refused("", "empty");
-    refused("plough\n", "format");
+    refused("plough\n", "no PLY file");
     refused("nothing", "no PLY file");
     refused(header("-3", "1") + three, "\"-3\"");
     refused(header("4294967295", "4294967295", "binary_little_endian"),

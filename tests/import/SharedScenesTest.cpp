@@ -56,6 +56,7 @@ Manifest readManifest() {
         Manifest::Scene scene;
         auto number = c[2].substr(slash + 3);
         std::erase(number, ',');
+        if (number.empty() || std::isdigit(static_cast<unsigned char>(number[0])) == 0) continue;
         scene.drawn = std::stoull(number);
         auto& b = scene.box;
         if (std::sscanf(c[9].c_str(), "(%lf, %lf, %lf) .. (%lf, %lf, %lf)", &b[0], &b[1], &b[2],

@@ -119,12 +119,11 @@ TEST(HostileJoiner, ThatNeverReadsIsDroppedWhenTooMuchWaits) {
     fake.greet();
     Editor editor{hub.types()};
     const Thing& thing = editor.aspect().create<Thing>();
-    std::int32_t value = 0;
     const auto limit = eventually();
     int frames = 0;
     for (; !hub.logContains("it does not read") && SteadyClock::now() < limit; ++frames) {
-        field::edit(thing)->numbers.assign(
-            std::vector<std::int32_t>(std::size_t{1} << 18U, ++value));
+        const char letter = static_cast<char>('a' + frames % 26);
+        field::edit(thing)->text = std::string(std::size_t{1} << 20U, letter);
         hub->frame(editor.aspect().commit(), 0);
     }
     EXPECT_TRUE(hub.logContains("it does not read"));

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace gnomon::net::test {
@@ -42,10 +43,11 @@ public:
     field::Field<field::Payload> data;
     field::MultiField<std::int32_t> numbers;
     field::Field<field::Ref<Thing>> other;
+    field::Field<std::string> text;
     static constexpr auto fields() {
         return std::tuple{field::entry("place", &Thing::place), field::entry("data", &Thing::data),
                           field::entry("numbers", &Thing::numbers),
-                          field::entry("other", &Thing::other)};
+                          field::entry("other", &Thing::other), field::entry("text", &Thing::text)};
     }
 };
 

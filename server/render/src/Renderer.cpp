@@ -150,6 +150,7 @@ SceneDrawer& Renderer::Parts::drawer(const scene::Viewport& viewport) {
         entry.drawer = std::make_unique<SceneDrawer>(gl, scene, meshes, textures, programs);
         entry.drawer->update(viewport.root, excluded, {},
                              [&](const std::string& text) { warnOnce(text); });
+        maps.invalidateAll();  // what casts is another set now
     }
     return *entry.drawer;
 }

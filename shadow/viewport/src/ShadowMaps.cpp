@@ -31,11 +31,17 @@ math::Rect pageRect(int x, int y, int pageSize, int mapSize) {
 
 /// Larger side of a texel of the map, in metres, where clip w is 1.
 double texelMetres(const math::dmat4& clipFromWorld, int mapSize) {
-    // Rows of the linear part: moving one metre along row x's direction moves |row x| in clip
-    // units.
+    // Moving one metre across the light's view moves |row x| in clip units: the row without what it
+    // has of w's, which an off-centre crop puts there.
     const math::dmat4 rows = glm::transpose(clipFromWorld);
-    const double x = glm::length(math::dvec3{rows[0]});
-    const double y = glm::length(math::dvec3{rows[1]});
+    const math::dvec3 depth{rows[3]};
+    const double square = glm::dot(depth, depth);
+    const auto across = [&](const math::dvec4& row) {
+        const math::dvec3 all{row};
+        return glm::length(square > 0.0 ? all - depth * (glm::dot(all, depth) / square) : all);
+    };
+    const double x = across(rows[0]);
+    const double y = across(rows[1]);
     const double least = std::min(x, y);
     return least > 0.0 ? 2.0 / (least * mapSize) : 0.0;
 }
