@@ -145,8 +145,9 @@ dmat4 spotCamera(const FitInput& input, std::span<const dvec3> receivers) {
     for (const dvec3& p : receivers)
         far = std::max(far, glm::dot(p - input.light.position, input.light.direction));
     far = std::max(far * 1.001, 1e-3);
-    // Reversed float depth keeps its resolution with a near plane this close.
-    const double near = std::max(far * 1e-4, 1e-4);
+    // Casters nearer than this are clamped and still cast. Closer, and the rasterizer's float plane
+    // equations lose the offset: at 1e-4 of far llvmpipe speckles what the light stands over.
+    const double near = std::max(far * 0.02, 1e-4);
     const dmat4 whole = coneCamera(input.light, near, far);
     dvec2 low{1.0};
     dvec2 high{-1.0};

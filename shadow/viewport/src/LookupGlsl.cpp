@@ -46,7 +46,7 @@ float filteredShadow(uint map, vec3 q);
 //   normal    of the surface, unit, on the side that is seen
 //   nDotL     cosine to the light, > 0
 float shadowFactor(int first, int count, vec3 position, vec3 normal, float nDotL) {
-    float sine = sqrt(max(1.0 - nDotL * nDotL, 0.0));
+    float square = 1.0 - nDotL * nDotL;
     float factor = 1.0;
     bool found = false;
     for (int k = 0; k < MAPS_PER_LIGHT; ++k) {
@@ -54,6 +54,11 @@ float shadowFactor(int first, int count, vec3 position, vec3 normal, float nDotL
         mat4 m = shadowMaps[map].clipFromOrigin;
         vec4 texelInfo = shadowMaps[map].texel;
         float w = m[0].w * position.x + m[1].w * position.y + m[2].w * position.z + m[3].w;
+        // A spot's map measures depth along its axis: a surface may face the light and yet be steep
+        // in the map. A parallel light's rows have no w, and its axis is the light's direction.
+        vec3 axis = vec3(m[0].w, m[1].w, m[2].w);
+        float along = dot(axis, normal);
+        float sine = sqrt(max(max(square, dot(axis, axis) - along * along), 0.0));
         float offset = texelInfo.x * w * (0.05 + 1.4142 * texelInfo.y * sine);
         vec4 clip = m * vec4(position + normal * offset, 1.0);
         vec3 q = clip.xyz / clip.w;
