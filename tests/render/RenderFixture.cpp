@@ -1,8 +1,8 @@
 #include "RenderFixture.h"
 
-#include <span>
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace gnomon::render {
 

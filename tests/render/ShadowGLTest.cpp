@@ -51,7 +51,10 @@ protected:
                     }
                 if (edge) continue;
                 (dark ? darkPixels : litPixels) += 1;
-                wrong += pixel(found, x, y)[0] != (dark ? 0 : 255) ? 1 : 0;
+                const bool bad = pixel(found, x, y)[0] != (dark ? 0 : 255);
+                if (bad && wrong++ == 0)
+                    ADD_FAILURE() << "at " << p.x << ", " << p.z << " the factor is "
+                                  << pixel(found, x, y)[0] << ", dark: " << dark;
             }
         }
         EXPECT_GT(litPixels, 1000);

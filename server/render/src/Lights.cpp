@@ -97,8 +97,7 @@ Lights::Uploaded Lights::upload(const scene::FlatScene& flat, const math::View& 
     done.directional = done.count;
     for (std::size_t i = 0; i < uses.size(); ++i) put(i, false);
     if (maps != nullptr)
-        done.maps =
-            maps->arrange(std::span{order}.first(static_cast<std::size_t>(done.count)));
+        done.maps = maps->arrange(std::span{order}.first(static_cast<std::size_t>(done.count)));
     done.scoped = std::any_of(flat.instances().begin(), flat.instances().end(),
                               [&](const scene::FlatScene::Instance& instance) {
                                   return (instance.lights & used) != used;

@@ -18,8 +18,8 @@ public:
 
     struct Uploaded {
         int count = 0;
-        int directional = 0;   ///< the first of them
-        bool scoped = false;   ///< some surface is not lit by all of them
+        int directional = 0;  ///< the first of them
+        bool scoped = false;  ///< some surface is not lit by all of them
         shadow::ShadowMaps::Arranged maps = {};
     };
     /// Writes what reaches the view; binds both blocks, and the shadow maps in the lights' order.

@@ -110,8 +110,8 @@ GLuint Programs::foreground() {
 GLuint Programs::combine(int mapsPerLight) {
     gl::Program& program = combine_[mapsPerLight];
     if (program) return program.id();
-    const std::string defines =
-        "#define SHADOWS\n#define PAGED_MAPS\n#define MAPS_PER_LIGHT " + std::to_string(mapsPerLight) + "\n";
+    const std::string defines = "#define SHADOWS\n#define PAGED_MAPS\n#define MAPS_PER_LIGHT " +
+                                std::to_string(mapsPerLight) + "\n";
     program = mapsPerLight > 0 ? build("combine", defines, glsl::coverVertex(),
                                        {glsl::meshCommon(), shadow::lookupGlsl(),
                                         shadow::findFilter(filter_)->glsl, glsl::combine()})
