@@ -4,6 +4,8 @@
 #include <gnomon/config/Load.h>
 #include <gnomon/scene/Types.h>
 
+#include <algorithm>
+
 #include "ServerLink.h"
 
 namespace gnomon::client {
@@ -147,7 +149,18 @@ Result<std::vector<WallPicture>> Application::capture(double time) {
 std::vector<net::InputEventFrom> Application::takeEvents() {
     return impl_->link_->hub().takeEvents();
 }
-std::vector<net::ServerStatus> Application::status() const { return impl_->link_->hub().status(); }
+std::vector<net::ServerStatus> Application::status() const {
+    auto all = impl_->link_->hub().status();  // in the order they were connected
+    const auto& servers = impl_->config_.servers;
+    const auto place = [&](const net::ServerStatus& status) {
+        return std::find_if(servers.begin(), servers.end(), [&](const config::Server& server) {
+            return server.name == status.address.name;
+        });
+    };
+    std::sort(all.begin(), all.end(),
+              [&](const auto& a, const auto& b) { return place(a) < place(b); });
+    return all;
+}
 net::HubTotals Application::totals() const { return impl_->link_->hub().totals(); }
 std::vector<int> Application::processes() const { return impl_->link_->processes(); }
 void Application::shutdown() { impl_->link_->shutdown(); }

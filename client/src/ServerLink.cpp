@@ -49,7 +49,10 @@ ServerLink::ServerLink(const config::Config& config, const field::TypeRegistry& 
     LauncherOptions launch;
     launch.commands = launchCommands(config, options.server, options.backend,
                                      std::max(1U, std::thread::hardware_concurrency()));
-    launch.log = log_;
+    launch.log = [this](LogLevel level, const std::string& line) {
+        // That we leave is no news.
+        log_(ending_ && level == LogLevel::info ? LogLevel::debug : level, line);
+    };
     launch.listening = [this](const std::string& server, std::uint16_t port) {
         const std::lock_guard lock{mutex_};
         listening_.push_back({.name = server, .host = "127.0.0.1", .port = port});
@@ -127,6 +130,7 @@ std::vector<int> ServerLink::processes() const {
 }
 
 void ServerLink::shutdown() {
+    ending_ = true;
     hub_.shutdown();
     if (launcher_) launcher_->stop();
 }

@@ -3,6 +3,7 @@
 #include <gnomon/client/Application.h>
 #include <gnomon/net/ClientHub.h>
 
+#include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <set>
@@ -39,6 +40,7 @@ private:
 
     const LogCallback log_;
     const net::SyncOptions sync_;
+    std::atomic<bool> ending_{false};
     std::mutex mutex_;
     std::condition_variable listens_;                 // a server that is not yet in the hub
     std::vector<net::ServerAddress> listening_ = {};  // guarded

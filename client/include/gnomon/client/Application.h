@@ -93,6 +93,7 @@ public:
     Result<std::vector<WallPicture>> capture(double time);
 
     std::vector<net::InputEventFrom> takeEvents();
+    /// In the order of the config; local servers from when they first listened.
     std::vector<net::ServerStatus> status() const;
     net::HubTotals totals() const;
     /// Process ids of the local servers, in the order of the config; -1 where one is not running.
