@@ -13,5 +13,7 @@ using Action = std::function<int()>;
 void addRun(CLI::App& program, Action& action);
 void addCheck(CLI::App& program, Action& action);
 void addShot(CLI::App& program, Action& action);
+void addTruth(CLI::App& program, Action& action);
+void addCompare(CLI::App& program, Action& action);
 
 }  // namespace gnomon::client

@@ -1,6 +1,5 @@
 #include "Shot.h"
 
-#include <gnomon/client/AnimationPlayer.h>
 #include <gnomon/config/Adjust.h>
 #include <gnomon/config/Layout.h>
 #include <gnomon/config/Load.h>
@@ -14,6 +13,7 @@
 #include <optional>
 
 #include "Console.h"
+#include "FreeView.h"
 #include "LocalSession.h"
 
 namespace gnomon::client {
@@ -23,8 +23,6 @@ using Clock = std::chrono::steady_clock;
 using field::Ref;
 
 constexpr int warmUpFrames = 3;
-constexpr std::array<int, 2> defaultSize{1024, 1024};
-constexpr double defaultFovy = 1.0471975511965976;  // 60 degrees
 
 double milliseconds(Clock::duration d) {
     return std::chrono::duration<double, std::milli>(d).count();
@@ -119,7 +117,6 @@ public:
     int take();
 
 private:
-    void load();
     void lookFreely();
     void lookAsWall();
     void time();
@@ -141,59 +138,16 @@ private:
     std::vector<double> frameMs_ = {};
 };
 
-void Shot::load() {
-    auto prepared =
-        prepareScene(session_.aspect(), {.file = options_.scene,
-                                         .lights = options_.lights,
-                                         .progress = [&](double share, const std::string& what) {
-                                             console_.progress("loading", share, what);
-                                         }});
-    scene_ = orThrow(std::move(prepared));
-    if (!scene_.model) return;
-    for (const auto& warning : scene_.model->warnings) console_.log(LogLevel::warning, warning);
-    AnimationPlayer player;
-    player.play(session_.aspect(), *scene_.model);
-    player.animate(session_.aspect(), options_.animationTime);
-}
-
 void Shot::lookFreely() {
-    field::Aspect& aspect = session_.aspect();
-    const auto size = options_.view.size.value_or(defaultSize);
-    const double shape = static_cast<double>(size[0]) / size[1];
-    const auto fallback =
-        defaultView(aspect, scene_, opening(options_.view.fovy.value_or(defaultFovy), shape));
-    const auto given = options_.view.look();
-    const Look look = given.value_or(fallback.look);
-    const double fovy =
-        options_.view.fovy.value_or(given ? defaultFovy : fallback.fovy.value_or(defaultFovy));
-    DepthRange range = depthRange(scene_.bounds, look.eye);
-    range.near = options_.view.near.value_or(range.near);
-    range.far = options_.view.far.value_or(range.far);
-    const auto& camera = addCamera(aspect, scene_.tree, look, fovy, range);
-
     config::Shadow shadow;
     options_.shadow.apply(shadow);
     technique_ = shadow.technique;
     mapSize_ = static_cast<int>(shadow.mapSize);
-    const auto& viewport = aspect.create<scene::ShadowViewport>();
-    const auto& sky = aspect.create<scene::GradientBackground>();
-    edit(sky)->stops.assign(
-        {math::vec4{0.72F, 0.79F, 0.86F, 0.0F}, math::vec4{0.16F, 0.33F, 0.62F, 1.0F}});
-    {
-        auto e = edit(viewport);
-        e->camera = camera;
-        e->root = scene_.tree.root;
-        e->background = sky;
-        e->technique = technique_;
-        e->mapSize = mapSize_;
-    }
-    const auto& window = aspect.create<scene::Window>();
-    auto e = edit(window);
-    e->server = "shot";
-    e->size = glm::ivec2{size[0], size[1]};
-    e->samples = options_.samples;
-    e->viewports.pushBack(viewport);
-    shown_.push_back({.window = window, .parts = {{.file = options_.out, .width = size[0]}}});
+    const auto window = addFreeView(
+        session_.aspect(), scene_,
+        {.view = options_.view, .shadow = shadow, .samples = options_.samples, .server = "shot"});
+    const int width = session_.aspect().get(window)->size->x;
+    shown_.push_back({.window = window, .parts = {{.file = options_.out, .width = width}}});
 }
 
 void Shot::lookAsWall() {
@@ -353,7 +307,10 @@ void Shot::writeJson() const {
 }
 
 int Shot::take() {
-    load();
+    scene_ = loadScene(session_.aspect(), console_,
+                       {.file = options_.scene,
+                        .lights = options_.lights,
+                        .animationTime = options_.animationTime});
     if (options_.wall.empty())
         lookFreely();
     else

@@ -28,9 +28,9 @@ int main(int argc, char** argv) {
     gnomon::client::Action action;
     gnomon::client::addRun(program, action);
     gnomon::client::addCheck(program, action);
-#ifdef GNOMON_HAS_SHOT
     gnomon::client::addShot(program, action);
-#endif
+    gnomon::client::addTruth(program, action);
+    gnomon::client::addCompare(program, action);
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& help) {

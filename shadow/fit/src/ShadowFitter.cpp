@@ -42,9 +42,13 @@ LightShape lightShape(const scene::FlatScene::LightUse& use) {
         shape.kind = LightKind::spot;
         shape.halfAngle = spot->outerAngle;
         shape.range = spot->range;
+        shape.extent = spot->radius;
     } else if (const auto* point = dynamic_cast<const scene::PointLight*>(use.light)) {
         shape.kind = LightKind::point;
         shape.range = point->range;
+        shape.extent = point->radius;
+    } else if (const auto* sun = dynamic_cast<const scene::DirectionalLight*>(use.light)) {
+        shape.extent = sun->angle;
     }
     return shape;
 }

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace gnomon::shadow_fit {
@@ -21,6 +22,9 @@ struct LightShape {
     math::dvec3 direction{0.0, -1.0, 0.0};  ///< unit, from the light into the scene
     double halfAngle = 0.785;               ///< of a spot's cone, radians, < pi/2
     double range = 0.0;                     ///< beyond it nothing is lit; 0: unlimited
+    /// What it shines from: angular radius of a directional light's disk, radians; radius of a
+    /// spot's disk or a point light's sphere, metres. 0: no extent.
+    double extent = 0.0;
 };
 
 struct FitInput {
@@ -62,6 +66,10 @@ struct TechniqueName {
 /// Errors (Errc::config) name the words that would have done.
 Result<TechniqueName> parseTechnique(std::string_view text,
                                      std::span<const std::string_view> filters);
+
+/// Two unit vectors that with @p axis (unit) make a right-handed orthonormal base.
+/// Source: Tom Duff et al. Building an Orthonormal Basis, Revisited. 2017.
+std::pair<math::dvec3, math::dvec3> perpendicular(const math::dvec3& axis) noexcept;
 
 /// What the light can reach of what is seen: corners of (view volume, cut by the scene's bounds and
 /// by a spot's frustum), over all views. Empty: nothing to shadow.
