@@ -10,17 +10,17 @@ field::TypeRegistry LocalSession::makeTypes() {
     return types;
 }
 
-LocalSession::LocalSession(const std::string& backend, std::function<void(std::string)> report)
+LocalSession::LocalSession(gl::Context& context, std::function<void(std::string)> report)
     : types_{makeTypes()},
       aspect_{types_, 2},
       session_{types_, 1},
       replica_{types_, 0},
       fitter_{report},
-      context_{orThrow(gl::createContext({.backend = orThrow(gl::parseBackend(backend))}))},
-      renderer_{std::make_unique<render::Renderer>(*context_, replica_, std::move(report))} {}
+      context_{context},
+      renderer_{std::make_unique<render::Renderer>(context_, replica_, std::move(report))} {}
 
 LocalSession::~LocalSession() {
-    context_->makeCurrent();
+    context_.makeCurrent();
     renderer_.reset();
 }
 
@@ -42,6 +42,10 @@ void LocalSession::commit() {
     session_.takeUnusedPayloads();
     replica_.takeUnusedPayloads();
     if (!inReplica.empty()) renderer_->update(inReplica);
+}
+
+std::unique_ptr<gl::Context> makeContext(const std::string& backend) {
+    return orThrow(gl::createContext({.backend = orThrow(gl::parseBackend(backend))}));
 }
 
 }  // namespace gnomon::client

@@ -17,15 +17,14 @@ namespace gnomon::client {
 /// joined by the same change lists that go to servers.
 class LocalSession {
 public:
-    /// @throws Failure Errc::context
-    LocalSession(const std::string& backend, std::function<void(std::string)> report);
+    /// @param context  current; outlives the session. Several sessions may share one.
+    LocalSession(gl::Context& context, std::function<void(std::string)> report);
     ~LocalSession();
     LocalSession(const LocalSession&) = delete;
     LocalSession& operator=(const LocalSession&) = delete;
 
     field::Aspect& aspect() noexcept { return aspect_; }
     render::Renderer& renderer() noexcept { return *renderer_; }
-    const gl::Context& context() const noexcept { return *context_; }
     /// What the renderer has of a window.
     const scene::Window& rendered(field::Ref<scene::Window> window) const;
     /// Passes on what was edited since the last call. @throws Failure
@@ -39,8 +38,11 @@ private:
     field::Aspect session_;
     field::Aspect replica_;
     shadow_fit::ShadowFitter fitter_;
-    std::unique_ptr<gl::Context> context_;
+    gl::Context& context_;
     std::unique_ptr<render::Renderer> renderer_;
 };
+
+/// @param backend  as on the command line. @throws Failure Errc::context
+std::unique_ptr<gl::Context> makeContext(const std::string& backend);
 
 }  // namespace gnomon::client

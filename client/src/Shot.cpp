@@ -15,6 +15,7 @@
 #include "Console.h"
 #include "FreeView.h"
 #include "LocalSession.h"
+#include "Nudge.h"
 
 namespace gnomon::client {
 namespace {
@@ -72,47 +73,13 @@ void blackenBezels(const config::Config& wall, std::size_t screen, image::Image&
             if (!shown(x, 0) || !shown(y, 1)) std::fill_n(pixel, picture.channels, std::uint8_t{0});
 }
 
-/// Makes a still scene move, by less than can be seen: everything that casts, and the lights.
-class Nudge {
-public:
-    Nudge(field::Aspect& aspect, SceneTree& tree, std::vector<Ref<scene::Node>> lights)
-        : aspect_{aspect}, lights_{std::move(lights)} {
-        const auto& core = aspect.create<scene::Transform>();
-        insertAboveContent(aspect, tree, "nudge", core);
-        casters_ = core;
-    }
-    void step() {
-        ++count_;
-        const double by = (count_ % 2 == 0 ? 1e-9 : -1e-9) * static_cast<double>(count_);
-        edit(*aspect_.get(casters_))->matrix = math::Affine{.translation = {0.0, by, 0.0}};
-        for (const auto& ref : lights_) {
-            const scene::Node* node = aspect_.get(ref);
-            const auto* light =
-                node == nullptr ? nullptr : aspect_.get(Ref<scene::Light>{node->core->id});
-            const scene::Node* beacon =
-                light == nullptr ? nullptr : aspect_.get(light->beacon.get());
-            const auto* place =
-                beacon == nullptr ? nullptr : aspect_.get(Ref<scene::Transform>{beacon->core->id});
-            if (place == nullptr) continue;
-            math::Affine matrix = place->matrix;
-            matrix.translation.y += by;
-            edit(*place)->matrix = matrix;
-        }
-    }
-
-private:
-    field::Aspect& aspect_;
-    std::vector<Ref<scene::Node>> lights_;
-    Ref<scene::Transform> casters_ = {};
-    std::int64_t count_ = 0;
-};
-
 class Shot {
 public:
     explicit Shot(const ShotOptions& options)
-        : options_{options}, session_{options.backend, [this](const std::string& t) {
-                                          console_.log(LogLevel::warning, t);
-                                      }} {}
+        : options_{options},
+          context_{makeContext(options.backend)},
+          session_{*context_,
+                   [this](const std::string& t) { console_.log(LogLevel::warning, t); }} {}
 
     int take();
 
@@ -127,6 +94,7 @@ private:
 
     const ShotOptions& options_;
     Console console_;
+    std::unique_ptr<gl::Context> context_;
     LocalSession session_;
     PreparedScene scene_ = {};
     std::vector<Shown> shown_ = {};
@@ -280,9 +248,8 @@ void Shot::writeJson() const {
     if (options_.json.empty() && frameMs_.empty()) return;
     auto sorted = frameMs_;
     std::sort(sorted.begin(), sorted.end());
-    nlohmann::ordered_json json{{"technique", technique_},
-                                {"map_size", mapSize_},
-                                {"renderer", session_.context().renderer()}};
+    nlohmann::ordered_json json{
+        {"technique", technique_}, {"map_size", mapSize_}, {"renderer", context_->renderer()}};
     if (!sorted.empty()) {
         json["frame_ms"] = {
             {"median", sorted[sorted.size() / 2]}, {"min", sorted.front()}, {"max", sorted.back()}};

@@ -41,8 +41,8 @@ int traceTruth(const TruthArguments& arguments) {
     const auto* viewport =
         dynamic_cast<const scene::Viewport*>(aspect.find(window->viewports[0].id));
     const glm::ivec2 size = window->size;
-    const auto camera = orThrow(
-        scene::cameraView(aspect, viewport->camera, static_cast<double>(size.x) / size.y));
+    const auto camera =
+        orThrow(scene::cameraView(aspect, viewport->camera, static_cast<double>(size.x) / size.y));
 
     const auto begin = std::chrono::steady_clock::now();
     scene::FlatScene flat{aspect};
@@ -59,11 +59,12 @@ int traceTruth(const TruthArguments& arguments) {
     GNOMON_EXPECTS(use != uses.end(), "a light that is on is in the flat scene");
     truth::RayScene rays{aspect};
     rays.update(flat, glm::round(camera.view.eyeWorld()));
-    const auto truth = truth::shadowTruth(
-        rays, camera.view, shadow_fit::lightShape(*use),
-        {.width = size.x, .height = size.y, .samples = arguments.samples, .progress = [&](double s) {
-             console.progress("tracing", s, "");
-         }});
+    const auto truth =
+        truth::shadowTruth(rays, camera.view, shadow_fit::lightShape(*use),
+                           {.width = size.x,
+                            .height = size.y,
+                            .samples = arguments.samples,
+                            .progress = [&](double s) { console.progress("tracing", s, ""); }});
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     orThrow(image::writePgm(arguments.out, truth.factor));

@@ -313,8 +313,9 @@ TEST_F(FlatSceneTest, ARootThatIsNotThereIsEmpty) {
     exchange();
     flat.update(Ref<Node>{root.id()}, {}, {});
     EXPECT_EQ(flat.instances().size(), 1U);
+    const Ref<Node> gone{root.id()};
     ASSERT_TRUE(source.destroyTree(root).has_value());
-    flat.update(Ref<Node>{root.id()}, {}, exchange());
+    flat.update(gone, {}, exchange());
     EXPECT_TRUE(flat.instances().empty());
 }
 

@@ -42,8 +42,30 @@ struct Situation {
     LightShape light = {};
     std::vector<math::View> views = {};
     math::Box scene = {};
-    FitInput input(int mapSize = 1024) const {
-        return {.light = light, .views = views, .scene = scene, .mapSize = mapSize};
+
+    /// What a fit made of it; the scene is one box.
+    Fitted fitted(const FitInfo& info, int mapSize = 1024) const {
+        math::BoxTree tree;
+        tree.build({scene});
+        const auto seen = receivers(tree);
+        const auto samples = samplePicture(views, tree, 12);
+        return info.fit({.light = light,
+                         .views = views,
+                         .receivers = seen,
+                         .samples = samples,
+                         .scene = scene,
+                         .mapSize = mapSize});
+    }
+    Receivers receivers(const math::BoxTree& tree) const {
+        Receivers seen;
+        for (const math::View& view : views) seen.add(view, &light, tree);
+        return seen;
+    }
+    std::vector<dvec3> receiverPoints() const {
+        math::BoxTree tree;
+        tree.build({scene});
+        const auto seen = receivers(tree);
+        return {seen.points().begin(), seen.points().end()};
     }
 };
 
@@ -108,7 +130,7 @@ TEST_P(EveryFit, HoldsEveryReceiverAndWhatLiesBetweenItAndTheLight) {
     int receivers = 0;
     for (int round = 0; round < 60; ++round) {
         const Situation s = randomSituation(chance, kind());
-        const Fitted fitted = info().fit(s.input());
+        const Fitted fitted = s.fitted(info());
         for (const FittedMap& map : fitted.maps) ASSERT_TRUE(math::isFinite(map.clipFromWorld));
         for (int i = 0; i < 400; ++i) {
             const dvec3 p = chance.point(s.scene.min, s.scene.max);
@@ -138,8 +160,8 @@ TEST_P(EveryFit, HoldsEveryReceiverAndWhatLiesBetweenItAndTheLight) {
 TEST_P(EveryFit, SaysTheSameAgain) {
     for (int round = 0; round < 20; ++round) {
         const Situation s = randomSituation(chance, kind());
-        const Fitted a = info().fit(s.input());
-        const Fitted b = info().fit(s.input());
+        const Fitted a = s.fitted(info());
+        const Fitted b = s.fitted(info());
         ASSERT_EQ(a.maps.size(), b.maps.size());
         for (std::size_t i = 0; i < a.maps.size(); ++i)
             EXPECT_EQ(a.maps[i].clipFromWorld, b.maps[i].clipFromWorld);
@@ -176,7 +198,7 @@ TEST_P(EveryFit, DegenerateScenesGiveFiniteMapsOrNone) {
                 s.light.direction = {0.0, round % 16 < 8 ? -1.0 : 1.0, 0.0};
                 break;
         }
-        const Fitted fitted = info().fit(s.input());
+        const Fitted fitted = s.fitted(info());
         for (const FittedMap& map : fitted.maps) EXPECT_TRUE(math::isFinite(map.clipFromWorld));
         if (s.scene.empty()) {
             EXPECT_TRUE(fitted.maps.empty());
@@ -187,26 +209,26 @@ TEST_P(EveryFit, DegenerateScenesGiveFiniteMapsOrNone) {
 TEST_P(EveryFit, WhatNobodySeesHasNoMap) {
     Situation s = randomSituation(chance, kind());
     s.views.clear();
-    EXPECT_TRUE(info().fit(s.input()).maps.empty());
+    EXPECT_TRUE(s.fitted(info()).maps.empty());
     // Looking away from the scene.
     const dvec3 eye = s.scene.max + dvec3{10.0};
     s.views.push_back({.clipFromEye = math::perspective(0.5, 1.0, 0.1, 1e4),
                        .eyeFromWorld = math::lookAt(eye, eye + dvec3{1.0}, {0.0, 1.0, 0.0})});
-    EXPECT_TRUE(info().fit(s.input()).maps.empty());
+    EXPECT_TRUE(s.fitted(info()).maps.empty());
 }
 
 TEST_P(EveryFit, AViewThatIsNotFiniteIsSkipped) {
     Situation s = randomSituation(chance, kind());
-    const Fitted expected = info().fit(s.input());
+    const Fitted expected = s.fitted(info());
     math::View broken = s.views[0];
     broken.clipFromEye[0][0] = std::numeric_limits<double>::quiet_NaN();
     s.views.insert(s.views.begin(), broken);
-    const Fitted found = info().fit(s.input());
+    const Fitted found = s.fitted(info());
     ASSERT_EQ(found.maps.size(), expected.maps.size());
     for (std::size_t i = 0; i < found.maps.size(); ++i)
         EXPECT_EQ(found.maps[i].clipFromWorld, expected.maps[i].clipFromWorld);
     s.views = {broken};
-    EXPECT_TRUE(info().fit(s.input()).maps.empty());
+    EXPECT_TRUE(s.fitted(info()).maps.empty());
 }
 
 std::string caseName(const testing::TestParamInfo<Case>& info) {
@@ -228,8 +250,8 @@ TEST(StandardFit, AParallelLightsRectangleIsTheSmallest) {
     int tried = 0;
     for (int round = 0; round < 60; ++round) {
         const Situation s = randomSituation(chance, LightKind::directional);
-        const auto points = receiverPoints(s.input());
-        const Fitted fitted = info.fit(s.input(65536));
+        const auto points = s.receiverPoints();
+        const Fitted fitted = s.fitted(info, 65536);
         if (points.empty() || fitted.maps.empty()) continue;
         // Extents of the map in metres, from the rows of its matrix.
         const dmat4 rows = glm::transpose(fitted.maps[0].clipFromWorld);
@@ -268,7 +290,7 @@ TEST(StandardFit, ASpotsMapIsCutToWhatIsSeen) {
     const auto texels = [&](double fovy) {
         s.views = {{.clipFromEye = math::perspective(fovy, 1.0, 0.1, 100.0),
                     .eyeFromWorld = math::lookAt({0.0, 12.0, 0.0}, {3.0, 0.0, 0.0}, {0, 0, -1})}};
-        const Fitted fitted = info.fit(s.input());
+        const Fitted fitted = s.fitted(info);
         EXPECT_EQ(fitted.maps.size(), 1U);
         const auto a = inMap(fitted.maps[0], {3.0, 0.0, 0.0});
         const auto b = inMap(fitted.maps[0], {3.01, 0.0, 0.0});

@@ -28,9 +28,11 @@ protected:
         const auto box = makeNode<Geometry>(app, "box");
         {
             auto e = edit(box.core);
-            e->chunks.assign({Chunk{.indexCount = 3}});
-            e->boundsMin = math::vec3{-2.0F, 0.0F, -6.0F};
-            e->boundsMax = math::vec3{2.0F, 2.0F, -2.0F};
+            const math::vec3 low{-2.0F, 0.0F, -6.0F};
+            const math::vec3 high{2.0F, 2.0F, -2.0F};
+            e->chunks.assign({Chunk{.indexCount = 3, .min = low, .max = high}});
+            e->boundsMin = low;
+            e->boundsMax = high;
         }
         edit(sun.node)->addChild(box.node);
         edit(sun.core)->beacon = beacon.node;
@@ -143,8 +145,14 @@ TEST_F(ShadowFitterTest, AllTilesAndBothEyesOfAScreenShareOneState) {
     flat.update(Ref<Node>{root.id()}, {}, {});
     const auto standard = std::find_if(fits().begin(), fits().end(),
                                        [](const FitInfo& i) { return i.name == "std"; });
-    const auto expected = standard->fit({.light = lightShape(flat.lights()[0]),
+    const LightShape light = lightShape(flat.lights()[0]);
+    math::BoxTree boxes;
+    boxes.build({flat.bounds()});
+    Receivers receivers;
+    for (const math::View& view : views) receivers.add(view, &light, boxes);
+    const auto expected = standard->fit({.light = light,
                                          .views = views,
+                                         .receivers = receivers,
                                          .scene = flat.bounds(),
                                          .mapSize = 512});
     ASSERT_EQ(expected.maps.size(), 1U);

@@ -23,46 +23,78 @@ void sortAround(std::vector<dvec3>& points, const dvec3& normal) {
 
 }  // namespace
 
-ConvexBody::ConvexBody(const std::array<dvec3, 8>& c)
-    : faces_{{c[0], c[1], c[2], c[3]}, {c[4], c[5], c[6], c[7]}, {c[0], c[1], c[5], c[4]},
-             {c[1], c[2], c[6], c[5]}, {c[2], c[3], c[7], c[6]}, {c[3], c[0], c[4], c[7]}} {}
+void ConvexBody::addFace(std::initializer_list<dvec3> corners) {
+    points_.insert(points_.end(), corners.begin(), corners.end());
+    ends_.push_back(static_cast<std::uint32_t>(points_.size()));
+}
 
-ConvexBody::ConvexBody(const Box& box) {
+void ConvexBody::assign(const std::array<dvec3, 8>& c) {
+    points_.clear();
+    ends_.clear();
+    addFace({c[0], c[1], c[2], c[3]});
+    addFace({c[4], c[5], c[6], c[7]});
+    addFace({c[0], c[1], c[5], c[4]});
+    addFace({c[1], c[2], c[6], c[5]});
+    addFace({c[2], c[3], c[7], c[6]});
+    addFace({c[3], c[0], c[4], c[7]});
+}
+
+void ConvexBody::assign(const Box& box) {
+    points_.clear();
+    ends_.clear();
     if (box.empty()) return;
     const auto c = [&](int i) { return box.corner(i); };
-    *this = ConvexBody{std::array{c(0), c(1), c(3), c(2), c(4), c(5), c(7), c(6)}};
+    assign(std::array{c(0), c(1), c(3), c(2), c(4), c(5), c(7), c(6)});
 }
 
 void ConvexBody::clip(const Plane& plane) {
-    std::vector<std::vector<dvec3>> kept;
-    std::vector<dvec3> cut;
-    for (const auto& face : faces_) {
-        std::vector<dvec3> inside;
-        for (std::size_t i = 0; i < face.size(); ++i) {
-            const dvec3& a = face[i];
-            const dvec3& b = face[(i + 1) % face.size()];
-            const double da = plane.distance(a);
-            const double db = plane.distance(b);
-            if (da >= 0.0) inside.push_back(a);
+    distances_.clear();
+    bool anyOutside = false;
+    bool anyInside = false;
+    for (const dvec3& p : points_) {
+        const double d = plane.distance(p);
+        distances_.push_back(d);
+        (d >= 0.0 ? anyInside : anyOutside) = true;
+    }
+    if (!anyOutside) return;
+    keptPoints_.clear();
+    keptEnds_.clear();
+    cut_.clear();
+    std::uint32_t first = 0;
+    for (const std::uint32_t end : ends_) {
+        if (!anyInside) break;
+        const std::size_t start = keptPoints_.size();
+        for (std::uint32_t i = first; i < end; ++i) {
+            const std::uint32_t next = i + 1 < end ? i + 1 : first;
+            const double da = distances_[i];
+            const double db = distances_[next];
+            if (da >= 0.0) keptPoints_.push_back(points_[i]);
             if ((da >= 0.0) != (db >= 0.0)) {
                 // One is >= 0 and the other < 0, so da - db is not zero.
-                const dvec3 p = a + (b - a) * (da / (da - db));
-                inside.push_back(p);
-                cut.push_back(p);
+                const dvec3 p = points_[i] + (points_[next] - points_[i]) * (da / (da - db));
+                keptPoints_.push_back(p);
+                cut_.push_back(p);
             }
         }
-        if (inside.size() >= 3) kept.push_back(std::move(inside));
+        first = end;
+        if (keptPoints_.size() - start >= 3)
+            keptEnds_.push_back(static_cast<std::uint32_t>(keptPoints_.size()));
+        else
+            keptPoints_.resize(start);
     }
-    if (cut.size() >= 3) {
-        sortAround(cut, plane.normal);
-        kept.push_back(std::move(cut));
+    if (cut_.size() >= 3) {
+        sortAround(cut_, plane.normal);
+        keptPoints_.insert(keptPoints_.end(), cut_.begin(), cut_.end());
+        keptEnds_.push_back(static_cast<std::uint32_t>(keptPoints_.size()));
     }
-    faces_ = std::move(kept);
+    points_.swap(keptPoints_);
+    ends_.swap(keptEnds_);
 }
 
 void ConvexBody::clip(const Box& box) {
     if (box.empty()) {
-        faces_.clear();
+        points_.clear();
+        ends_.clear();
         return;
     }
     for (int axis = 0; axis < 3; ++axis) {
@@ -71,12 +103,6 @@ void ConvexBody::clip(const Box& box) {
         clip({.normal = normal, .offset = -box.min[axis]});
         clip({.normal = -normal, .offset = box.max[axis]});
     }
-}
-
-std::vector<dvec3> ConvexBody::points() const {
-    std::vector<dvec3> all;
-    for (const auto& face : faces_) all.insert(all.end(), face.begin(), face.end());
-    return all;
 }
 
 }  // namespace gnomon::math

@@ -130,7 +130,7 @@ std::array<Plane, 6> frustumPlanes(const dmat4& clipFromWorld) noexcept {
     return planes;
 }
 
-bool mayIntersect(const std::array<Plane, 6>& planes, const Box& box) noexcept {
+bool mayIntersect(std::span<const Plane> planes, const Box& box) noexcept {
     if (box.empty()) return false;
     for (const Plane& plane : planes) {
         const dvec3 furthest{plane.normal.x > 0.0 ? box.max.x : box.min.x,

@@ -29,13 +29,6 @@ MaterialBlock blockFor(const scene::Material* material) {
     return block;
 }
 
-math::Box chunkBounds(const scene::Chunk& chunk, const math::dmat4& world) {
-    const bool ordered =
-        chunk.min.x <= chunk.max.x && chunk.min.y <= chunk.max.y && chunk.min.z <= chunk.max.z;
-    if (!ordered) return {};
-    return math::transformed({.min = math::dvec3{chunk.min}, .max = math::dvec3{chunk.max}}, world);
-}
-
 GLenum glPrimitive(scene::Primitive primitive) {
     switch (primitive) {
         case scene::Primitive::lines:
@@ -107,71 +100,49 @@ BatchState Batches::describe(const scene::FlatScene::Instance& instance,
     return state;
 }
 
-void Batches::rebuild(const scene::FlatScene& flat, const field::Aspect& aspect,
-                      const std::function<void(std::string)>& report) {
+void Batches::rebuild(const scene::FlatScene& flat, const scene::ChunkTree& chunks,
+                      const field::Aspect& aspect, const std::function<void(std::string)>& report) {
     batches_.clear();
     depthBatches_.clear();
     index_.clear();
     depthIndex_.clear();
-    drawables_.clear();
-    firstDrawable_.clear();
+    drawables_.assign(chunks.uses().size(), {});
     materials_.clear();
     slots_.clear();
     hasForeign_ = hasMasked_ = false;
 
     const auto instances = flat.instances();
-    for (std::uint32_t i = 0; i < instances.size(); ++i) {
+    const auto uses = chunks.uses();
+    const MeshStore::Mesh* mesh = nullptr;
+    BatchState state;
+    for (std::uint32_t u = 0; u < uses.size(); ++u) {
+        const std::uint32_t i = uses[u].instance;
         const auto& instance = instances[i];
-        firstDrawable_.push_back(static_cast<std::uint32_t>(drawables_.size()));
-        const MeshStore::Mesh& mesh = meshes_.get(*instance.geometry);
-        if (!mesh.valid || instance.bounds.empty()) continue;
-        const BatchState state = describe(instance, aspect, mesh, report);
-        const std::uint32_t batch = batchFor(state, false);
-        const bool casts = instance.castsShadow && !state.blend && state.primitive == GL_TRIANGLES;
-        const bool masked = (state.features & Variant::alphaMask) != 0;
-        const math::dmat4& world = flat.worldFromLocal(instance);
-        const auto& chunks = instance.geometry->chunks;
-        for (std::uint32_t c = 0; c < chunks.size(); ++c) {
-            const scene::Chunk& chunk = chunks[c];
-            if (chunk.indexCount == 0) continue;
-            Drawable drawable{.bounds = chunkBounds(chunk, world),
-                              .command = {.count = chunk.indexCount,
-                                          .firstIndex = mesh.firstIndex + chunk.firstIndex,
-                                          .baseVertex = static_cast<GLint>(mesh.baseVertex),
-                                          .baseInstance = i},
-                              .batch = batch,
-                              .chunk = c};
-            if (drawable.bounds.empty()) continue;
-            if (casts) {
-                BatchState depth{.format = mesh.format};
-                if (masked) {
-                    depth.features = state.features & (Variant::alphaMask | Variant::diffuseMap);
-                    depth.material = state.material;
-                    depth.textures[0] = state.textures[0];
-                } else {
-                    if (chunk.closed) {
-                        // The far side casts the same shadow, and where it lies is dark anyway.
-                        depth.cull = Cull::front;
-                        depth.mirrored = state.mirrored;
-                    }
-                }
-                drawable.depthBatch = batchFor(depth, true);
-            }
-            drawables_.push_back(drawable);
+        if (uses[u].chunk == 0) {  // the first of an instance
+            mesh = &meshes_.get(*instance.geometry);
+            if (mesh->valid) state = describe(instance, aspect, *mesh, report);
         }
+        if (!mesh->valid || chunks.bounds(u).empty()) continue;
+        const scene::Chunk& chunk = instance.geometry->chunks[uses[u].chunk];
+        drawables_[u] = {.command = {.count = chunk.indexCount,
+                                     .firstIndex = mesh->firstIndex + chunk.firstIndex,
+                                     .baseVertex = static_cast<GLint>(mesh->baseVertex),
+                                     .baseInstance = i},
+                         .batch = batchFor(state, false)};
+        if (!instance.castsShadow || state.blend || state.primitive != GL_TRIANGLES) continue;
+        BatchState depth{.format = mesh->format};
+        if ((state.features & Variant::alphaMask) != 0) {
+            depth.features = state.features & (Variant::alphaMask | Variant::diffuseMap);
+            depth.material = state.material;
+            depth.textures[0] = state.textures[0];
+        } else if (chunk.closed) {
+            // The far side casts the same shadow, and where it lies is dark anyway.
+            depth.cull = Cull::front;
+            depth.mirrored = state.mirrored;
+        }
+        drawables_[u].depthBatch = batchFor(depth, true);
     }
-    firstDrawable_.push_back(static_cast<std::uint32_t>(drawables_.size()));
     uploadMaterials();
-}
-
-void Batches::move(const scene::FlatScene& flat) {
-    for (const std::uint32_t i : flat.moved()) {
-        const auto& instance = flat.instances()[i];
-        const math::dmat4& world = flat.worldFromLocal(instance);
-        for (std::uint32_t d = firstDrawable_[i]; d < firstDrawable_[i + 1]; ++d)
-            drawables_[d].bounds =
-                chunkBounds(instance.geometry->chunks[drawables_[d].chunk], world);
-    }
 }
 
 void Batches::uploadMaterials() {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gnomon/scene/FlatScene.h>
+#include <gnomon/scene/ChunkTree.h>
 
 #include <array>
 #include <cstdint>
@@ -39,14 +39,12 @@ struct BatchState {
     friend auto operator<=>(const BatchState&, const BatchState&) = default;
 };
 
-/// A chunk of an instance: the unit of culling.
+/// How a use of a chunk is drawn.
 struct Drawable {
     static constexpr std::uint32_t none = 0xffffffffU;
-    math::Box bounds = {};  ///< world
     DrawCommand command = {};
     std::uint32_t batch = none;       ///< colour
     std::uint32_t depthBatch = none;  ///< shadow maps
-    std::uint32_t chunk = 0;
 };
 
 /// A flat scene made ready to draw: what to draw in which order of states, grouped once and culled
@@ -56,12 +54,11 @@ public:
     Batches(const gl::Api& gl, MeshStore& meshes, TextureStore& textures, Programs& programs);
 
     /// Groups anew. @param report  told of materials whose shaders do not compile.
-    void rebuild(const scene::FlatScene& flat, const field::Aspect& aspect,
-                 const std::function<void(std::string)>& report);
-    /// Follows instances that moved.
-    void move(const scene::FlatScene& flat);
+    void rebuild(const scene::FlatScene& flat, const scene::ChunkTree& chunks,
+                 const field::Aspect& aspect, const std::function<void(std::string)>& report);
     std::span<const BatchState> batches() const noexcept { return batches_; }
     std::span<const BatchState> depthBatches() const noexcept { return depthBatches_; }
+    /// By use in the chunk tree.
     std::span<const Drawable> drawables() const noexcept { return drawables_; }
     bool hasForeign() const noexcept { return hasForeign_; }
     bool hasMasked() const noexcept { return hasMasked_; }
@@ -85,7 +82,6 @@ private:
     std::map<BatchState, std::uint32_t> index_;
     std::map<BatchState, std::uint32_t> depthIndex_;
     std::vector<Drawable> drawables_;
-    std::vector<std::uint32_t> firstDrawable_;  // per instance, and one past the last
     std::vector<const scene::Material*> materials_;
     std::map<const scene::Material*, std::uint32_t> slots_;
     gl::Buffer materialBuffer_;

@@ -37,6 +37,17 @@ out vec4 vTangent;
 #ifdef SCOPED_LIGHTS
 flat out uvec2 vLights;
 #endif
+#if SHADOW_PLACES > 0
+// A light's place in its map is a projective image of the position: it can be interpolated, which
+// is cheaper than finding it for each pixel.
+#ifdef PERSPECTIVE_MAPS
+#define PLACE(p) (p)
+out vec4 vPlace[SHADOW_PLACES];
+#else
+#define PLACE(p) (p).xyz
+out vec3 vPlace[SHADOW_PLACES];
+#endif
+#endif
 #endif
 #ifdef HAS_TEXCOORDS
 out vec2 vTexCoord;
@@ -71,6 +82,10 @@ void main() {
 #ifdef SCOPED_LIGHTS
     vLights = info.xy;
 #endif
+#if SHADOW_PLACES > 0
+    for (int i = 0; i < SHADOW_PLACES; ++i)
+        vPlace[i] = PLACE(shadowPlace(i * MAPS_PER_LIGHT, world));
+#endif
 #endif
 }
 )glsl";
@@ -94,7 +109,7 @@ layout(std140, binding = 2) uniform ViewBlock {
     vec4 eye;            // relative to the origin; w: number of lights
     vec4 ambientSky;
     vec4 ambientGround;
-    vec4 shadowColor;
+    vec4 shadowFloor;    // what is left of a light in its shadow
 };
 layout(std140, binding = 3) uniform MaterialBlock {
     vec4 diffuse;
@@ -165,6 +180,17 @@ vec3 lightReaching(int i, vec3 position, out vec3 toLight) {
     }
     return lights[i].color.rgb * weight;
 }
+
+// Whether anything of a light arrives at all: within its range and a spot's cone.
+bool shinesAt(int i, vec3 position) {
+    if (lights[i].direction.w == 0.0) return true;
+    vec3 way = position - lights[i].position.xyz;
+    float square = dot(way, way);
+    float range = lights[i].position.w;
+    if (range > 0.0 && square >= range * range) return false;
+    float c = dot(way, lights[i].direction.xyz) * inversesqrt(max(square, 1e-12));
+    return lights[i].direction.w != 2.0 || lights[i].cone.x * c + lights[i].cone.y > 0.0;
+}
 )glsl";
 }
 
@@ -179,6 +205,15 @@ in vec4 vTangent;
 #endif
 #ifdef SCOPED_LIGHTS
 flat in uvec2 vLights;
+#endif
+#if SHADOW_PLACES > 0
+#ifdef PERSPECTIVE_MAPS
+in vec4 vPlace[SHADOW_PLACES];
+vec4 placeOf(int i) { return vPlace[i]; }
+#else
+in vec3 vPlace[SHADOW_PLACES];
+vec4 placeOf(int i) { return vec4(vPlace[i], 1.0); }
+#endif
 #endif
 layout(location = 0) out vec4 outColor;
 
@@ -209,7 +244,12 @@ vec3 mappedNormal(vec3 normal, vec2 uv) {
 
 #ifndef UNLIT
 // What one light adds.
-vec3 lit(int i, vec3 toLight, vec3 reaching, vec3 normal, vec3 face, vec3 toEye, vec3 diffuse) {
+#ifndef SHADOWS
+#define ShadowPoint int
+#endif
+//   point  where the surface is in the light's first shadow map
+vec3 lit(int i, vec3 toLight, vec3 reaching, ShadowPoint point, vec3 normal, vec3 face, vec3 toEye,
+         vec3 diffuse) {
 #ifdef SCOPED_LIGHTS
     uint bit = lights[i].maps.z;
     if (((bit < 32u ? vLights.x : vLights.y) & (1u << (bit & 31u))) == 0u) return vec3(0.0);
@@ -218,13 +258,11 @@ vec3 lit(int i, vec3 toLight, vec3 reaching, vec3 normal, vec3 face, vec3 toEye,
     float cosine = dot(normal, toLight);
     reaching *= max(cosine, 0.0);
 #ifdef SHADOWS
-    if (lights[i].maps.y > 0u && cosine > 0.0 && reaching != vec3(0.0)) {
-        float faceCosine = dot(face, toLight);
-        float factor = 0.0;
-        if (faceCosine > 0.0)
-            factor = shadowFactor(i * MAPS_PER_LIGHT, int(lights[i].maps.y), vPosition, face,
-                                  faceCosine);
-        reaching *= mix(vec3(1.0), mix(shadowColor.rgb, vec3(1.0), factor), shadowColor.a);
+    if (cosine > 0.0 && i < SHADOW_LIGHTS) {
+        // A face that is turned away is in its own shadow, whatever its normal map says.
+        float factor = dot(face, toLight) > 0.0 ? shadowFactor(i * MAPS_PER_LIGHT, point) : 0.0;
+        vec3 dark = lights[i].maps.y > 0u ? shadowFloor.rgb : vec3(1.0);
+        reaching *= dark + (1.0 - dark) * factor;
     }
 #endif
     // Energy-conserving Blinn-Phong. Source: Fabian Giesen. Phong Normalization Factor Derivation.
@@ -261,19 +299,30 @@ void main() {
     vec3 radiance = mix(ambientGround.rgb, ambientSky.rgb, normal.y * 0.5 + 0.5) * diffuse;
     // Directional lights come first. The number of lights is fixed in the program and each call is
     // written out: a constant index is read once for all pixels.
-#define DIRECTIONAL(i) \
-    radiance += lit(i, -lights[i].direction.xyz, lights[i].color.rgb, normal, face, toEye, diffuse);
-#define OTHER(i)                                                        \
-    {                                                                   \
-        vec3 toLight;                                                   \
-        vec3 reaching = lightReaching(i, vPosition, toLight);           \
-        radiance += lit(i, toLight, reaching, normal, face, toEye, diffuse); \
+#ifdef SHADOWS
+#define FOUND(i) foundPoint((i) * MAPS_PER_LIGHT, vPosition, face)
+#else
+#define FOUND(i) 0
+#endif
+#if SHADOW_PLACES > 0
+#define INTERPOLATED(i) interpolatedPoint(placeOf(i))
+#else
+#define INTERPOLATED(i) 0
+#endif
+#define DIRECTIONAL(i, point)                                                                  \
+    radiance += lit(i, -lights[i].direction.xyz, lights[i].color.rgb, point(i), normal, face, \
+                    toEye, diffuse);
+#define OTHER(i, point)                                                                  \
+    {                                                                                    \
+        vec3 toLight;                                                                    \
+        vec3 reaching = lightReaching(i, vPosition, toLight);                            \
+        radiance += lit(i, toLight, reaching, point(i), normal, face, toEye, diffuse);   \
     }
     DIRECTIONAL_LIGHTS
     OTHER_LIGHTS
 #ifdef MANY_LIGHTS
     int count = int(eye.w);
-    for (int i = MANY_LIGHTS; i < count; ++i) OTHER(i)
+    for (int i = MANY_LIGHTS; i < count; ++i) OTHER(i, FOUND)
 #endif
     vec3 glow = material.emissive.rgb;
 #ifdef EMISSIVE_MAP
@@ -294,6 +343,15 @@ void main() { surfaceColor(); }
 std::string_view meshFactor() noexcept {
     return R"glsl(
 in vec3 vPosition;
+#if SHADOW_PLACES > 0
+#ifdef PERSPECTIVE_MAPS
+in vec4 vPlace[SHADOW_PLACES];
+vec4 placeOf(int i) { return vPlace[i]; }
+#else
+in vec3 vPlace[SHADOW_PLACES];
+vec4 placeOf(int i) { return vec4(vPlace[i], 1.0); }
+#endif
+#endif
 layout(location = 0) out float outFactor;
 
 void main() {
@@ -304,11 +362,10 @@ void main() {
     face *= inversesqrt(max(dot(face, face), 1e-30));
     vec3 toLight;
     lightReaching(0, vPosition, toLight);
-    float cosine = dot(face, toLight);
-    float lit = cosine > 0.0 ? 1.0 : 0.0;
-#ifdef SHADOWS
-    if (lit > 0.0 && lights[0].maps.y > 0u)
-        lit = shadowFactor(0, int(lights[0].maps.y), vPosition, face, cosine);
+    float lit = dot(face, toLight) > 0.0 && shinesAt(0, vPosition) ? 1.0 : 0.0;
+#if SHADOW_PLACES > 0
+    ShadowPoint point = interpolatedPoint(placeOf(0));
+    if (lit > 0.0 && lights[0].maps.y > 0u) lit = shadowFactor(0, point);
 #endif
     // 128 means that there is no surface.
     float byteValue = floor(lit * 255.0 + 0.5);
@@ -426,9 +483,10 @@ void main() {
         float lit = 1.0;
 #ifdef SHADOWS
         if (lights[i].maps.y > 0u)
-            lit = shadowFactor(i * MAPS_PER_LIGHT, int(lights[i].maps.y), position, normal, cosine);
+            lit = shadowFactor(i * MAPS_PER_LIGHT,
+                               foundPoint(i * MAPS_PER_LIGHT, position, normal));
 #endif
-        kept += reaching * mix(vec3(1.0), mix(shadowColor.rgb, vec3(1.0), lit), shadowColor.a);
+        kept += reaching * mix(shadowFloor.rgb, vec3(1.0), lit);
     }
     outColor = vec4(kept / max(all, vec3(1e-6)), 1.0);
 }

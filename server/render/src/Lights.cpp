@@ -24,7 +24,7 @@ struct ViewBlock {
     math::vec4 eye{0.0F};
     math::vec4 ambientSky{0.0F};
     math::vec4 ambientGround{0.0F};
-    math::vec4 shadowColor{0.0F, 0.0F, 0.0F, 1.0F};
+    math::vec4 shadowFloor{0.0F};
 };
 
 /// False only where nothing that is seen can be reached.
@@ -107,8 +107,10 @@ Lights::Uploaded Lights::upload(const scene::FlatScene& flat, const math::View& 
     block.eye = math::vec4{math::dvec4{view.eyeWorld() - origin, static_cast<double>(done.count)}};
     block.ambientSky = math::vec4{viewport.ambientSky.get(), 0.0F};
     block.ambientGround = math::vec4{viewport.ambientGround.get(), 0.0F};
-    if (const auto* shadowed = dynamic_cast<const scene::ShadowViewport*>(&viewport))
-        block.shadowColor = shadowed->shadowColor;
+    if (const auto* shadowed = dynamic_cast<const scene::ShadowViewport*>(&viewport)) {
+        const math::vec4 color = shadowed->shadowColor;
+        block.shadowFloor = glm::mix(math::vec4{1.0F}, color, color.w);
+    }
     if (done.count > 0)
         gl_.NamedBufferSubData(lights_.id(), 0,
                                static_cast<GLsizeiptr>(sizeof(LightBlock)) * done.count,

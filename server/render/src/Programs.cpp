@@ -29,11 +29,13 @@ std::string definesFor(const Variant& v) {
     define((v.features & Variant::scopedLights) != 0, "SCOPED_LIGHTS");
     define((v.features & Variant::shadows) != 0, "SHADOWS");
     define((v.features & Variant::pagedMaps) != 0, "PAGED_MAPS");
+    define((v.features & Variant::perspectiveMaps) != 0, "PERSPECTIVE_MAPS");
     define(v.pass == Variant::Pass::depth, "DEPTH_ONLY");
     const auto calls = [&](const char* list, const char* call, int first, int count) {
         text += std::string{"#define "} + list;
         for (int i = first; i < first + count; ++i)
-            text += std::string{" "} + call + "(" + std::to_string(i) + ")";
+            text += std::string{" "} + call + "(" + std::to_string(i) +
+                    (i < v.places ? ", INTERPOLATED)" : ", FOUND)");
         text += "\n";
     };
     calls("DIRECTIONAL_LIGHTS", "DIRECTIONAL", 0, v.directionalLights);
@@ -41,21 +43,25 @@ std::string definesFor(const Variant& v) {
     if ((v.features & Variant::manyLights) != 0)
         text += "#define MANY_LIGHTS " + std::to_string(v.directionalLights + v.otherLights) + "\n";
     text += "#define MAPS_PER_LIGHT " + std::to_string(v.mapsPerLight) + "\n";
+    text += "#define SHADOW_LIGHTS " + std::to_string(v.shadowLights) + "\n";
+    text += "#define SHADOW_PLACES " + std::to_string(v.places) + "\n";
     return text;
 }
 
 }  // namespace
 
 gl::Program Programs::build(std::string_view label, std::string_view defines,
-                            std::string_view vertex,
+                            std::initializer_list<std::string_view> vertex,
                             std::initializer_list<std::string_view> fragment) const {
     std::vector<gl::ShaderStage> stages;
-    stages.push_back({.type = GL_VERTEX_SHADER, .parts = {glsl::version(), defines, vertex}});
-    if (fragment.size() > 0) {
-        gl::ShaderStage stage{.type = GL_FRAGMENT_SHADER, .parts = {glsl::version(), defines}};
-        stage.parts.insert(stage.parts.end(), fragment.begin(), fragment.end());
+    const auto add = [&](GLenum type, std::initializer_list<std::string_view> parts) {
+        if (parts.size() == 0) return;
+        gl::ShaderStage stage{.type = type, .parts = {glsl::version(), defines}};
+        stage.parts.insert(stage.parts.end(), parts.begin(), parts.end());
         stages.push_back(std::move(stage));
-    }
+    };
+    add(GL_VERTEX_SHADER, vertex);
+    add(GL_FRAGMENT_SHADER, fragment);
     return orThrow(gl::buildProgram(gl_, label, stages));
 }
 
@@ -64,7 +70,7 @@ void Programs::useFilter(std::string_view name) {
     filter_ = name;
     std::erase_if(meshes_,
                   [](const auto& entry) { return (entry.first.features & Variant::shadows) != 0; });
-    std::erase_if(combine_, [](const auto& entry) { return entry.first > 0; });
+    std::erase_if(combine_, [](const auto& entry) { return entry.first.first > 0; });
 }
 
 GLuint Programs::mesh(const Variant& variant) {
@@ -72,24 +78,25 @@ GLuint Programs::mesh(const Variant& variant) {
     if (!isNew) return at->second.id();
     const std::string defines = definesFor(variant);
     const bool shadows = (variant.features & Variant::shadows) != 0;
+    const std::string_view maps = shadows ? shadow::mapsGlsl() : "";
     const std::string_view lookup = shadows ? shadow::lookupGlsl() : "";
     const std::string_view filter = shadows ? shadow::findFilter(filter_)->glsl : "";
     switch (variant.pass) {
         case Variant::Pass::color:
-            at->second = build("surface", defines, glsl::meshVertex(),
-                               {glsl::meshCommon(), lookup, filter, glsl::meshColor()});
+            at->second = build("surface", defines, {maps, glsl::meshVertex()},
+                               {glsl::meshCommon(), maps, lookup, filter, glsl::meshColor()});
             break;
         case Variant::Pass::factor:
-            at->second = build("shadow factor", defines, glsl::meshVertex(),
-                               {glsl::meshCommon(), lookup, filter, glsl::meshFactor()});
+            at->second = build("shadow factor", defines, {maps, glsl::meshVertex()},
+                               {glsl::meshCommon(), maps, lookup, filter, glsl::meshFactor()});
             break;
         case Variant::Pass::depth:
             // Opaque casters need no fragment shader at all.
             if ((variant.features & Variant::alphaMask) != 0)
-                at->second = build("masked caster", defines, glsl::meshVertex(),
+                at->second = build("masked caster", defines, {glsl::meshVertex()},
                                    {glsl::meshCommon(), glsl::meshDepth()});
             else
-                at->second = build("caster", defines, glsl::meshVertex(), {});
+                at->second = build("caster", defines, {glsl::meshVertex()}, {});
             break;
     }
     return at->second.id();
@@ -97,26 +104,30 @@ GLuint Programs::mesh(const Variant& variant) {
 
 GLuint Programs::background() {
     if (!background_)
-        background_ = build("background", "", glsl::backgroundVertex(), {glsl::background()});
+        background_ = build("background", "", {glsl::backgroundVertex()}, {glsl::background()});
     return background_.id();
 }
 
 GLuint Programs::foreground() {
     if (!foreground_)
-        foreground_ = build("foreground", "", glsl::foregroundVertex(), {glsl::foreground()});
+        foreground_ = build("foreground", "", {glsl::foregroundVertex()}, {glsl::foreground()});
     return foreground_.id();
 }
 
-GLuint Programs::combine(int mapsPerLight) {
-    gl::Program& program = combine_[mapsPerLight];
+GLuint Programs::combine(const shadow::ShadowMaps::Arranged& maps) {
+    gl::Program& program = combine_[{maps.mapsPerLight, maps.perspective}];
     if (program) return program.id();
-    const std::string defines = "#define SHADOWS\n#define PAGED_MAPS\n#define MAPS_PER_LIGHT " +
-                                std::to_string(mapsPerLight) + "\n";
-    program = mapsPerLight > 0 ? build("combine", defines, glsl::coverVertex(),
-                                       {glsl::meshCommon(), shadow::lookupGlsl(),
-                                        shadow::findFilter(filter_)->glsl, glsl::combine()})
-                               : build("combine", "", glsl::coverVertex(),
-                                       {glsl::meshCommon(), glsl::combine()});
+    if (maps.mapsPerLight == 0) {
+        program =
+            build("combine", "", {glsl::coverVertex()}, {glsl::meshCommon(), glsl::combine()});
+        return program.id();
+    }
+    std::string defines = "#define SHADOWS\n#define PAGED_MAPS\n#define MAPS_PER_LIGHT " +
+                          std::to_string(maps.mapsPerLight) + "\n";
+    if (maps.perspective) defines += "#define PERSPECTIVE_MAPS\n";
+    program = build("combine", defines, {glsl::coverVertex()},
+                    {glsl::meshCommon(), shadow::mapsGlsl(), shadow::lookupGlsl(),
+                     shadow::findFilter(filter_)->glsl, glsl::combine()});
     return program.id();
 }
 

@@ -2,6 +2,7 @@
 
 #include <gnomon/gl/Handle.h>
 #include <gnomon/scene/Material.h>
+#include <gnomon/shadow/ShadowMaps.h>
 
 #include <compare>
 #include <cstdint>
@@ -23,17 +24,21 @@ struct Variant {
         unlit = 16,
         scopedLights = 32,
         shadows = 64,
-        manyLights = 128,  ///< more lights than are written out
-        pagedMaps = 256,   ///< some shadow map has several pages
+        manyLights = 128,       ///< more lights than are written out
+        pagedMaps = 256,        ///< some shadow map has several pages
+        perspectiveMaps = 512,  ///< some shadow map has a w that is not 1
     };
     static constexpr int maxDirectional = 4;  ///< directional lights a program is written out for
     static constexpr int maxOther = 8;        ///< and others
+    static constexpr int maxPlaces = 6;       ///< lights whose place in a map is interpolated
     Pass pass = Pass::color;
     std::uint32_t format = 0;  ///< MeshFormat
     std::uint32_t features = 0;
     int directionalLights = 0;
     int otherLights = 0;
     int mapsPerLight = 0;  ///< with shadows
+    int shadowLights = 0;  ///< the first so many lights can have maps
+    int places = 0;        ///< the first so many lights' places come from the vertex shader
     friend auto operator<=>(const Variant&, const Variant&) = default;
 };
 
@@ -48,7 +53,7 @@ public:
     GLuint mesh(const Variant& variant);
     GLuint background();
     GLuint foreground();
-    GLuint combine(int mapsPerLight);
+    GLuint combine(const shadow::ShadowMaps::Arranged& maps);
 
     /// A material's own program, with the places of the uniforms it declares. id 0: it does not
     /// compile; error says why.
@@ -62,7 +67,8 @@ public:
     void forgetForeign(field::Id material) { foreign_.erase(material); }
 
 private:
-    gl::Program build(std::string_view label, std::string_view defines, std::string_view vertex,
+    gl::Program build(std::string_view label, std::string_view defines,
+                      std::initializer_list<std::string_view> vertex,
                       std::initializer_list<std::string_view> fragment) const;
 
     const gl::Api& gl_;
@@ -70,7 +76,7 @@ private:
     std::map<Variant, gl::Program> meshes_;
     gl::Program background_;
     gl::Program foreground_;
-    std::map<int, gl::Program> combine_;  ///< by maps per light, 0: no shadows
+    std::map<std::pair<int, bool>, gl::Program> combine_;  ///< by maps per light and perspective
     std::unordered_map<field::Id, Foreign> foreign_;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "Lights.h"
@@ -59,7 +60,9 @@ struct Renderer::Parts {
                                                      field::Id group) const;
     Result<void> drawViewport(const scene::Window& window, const scene::Viewport& viewport,
                               FrameStatistics& done, double time);
-    void combine(const Target& target, const Seen& seen, int mapsPerLight) const;
+    shadow::ShadowStatistics prepareMaps(const Seen& seen, const scene::Viewport& viewport);
+    void combine(const Target& target, const Seen& seen,
+                 const shadow::ShadowMaps::Arranged& arranged);
     double lap(Clock::time_point& since) const;
 
     gl::Context& context;
@@ -239,8 +242,7 @@ Result<void> Renderer::Parts::drawViewport(const scene::Window& window,
     const bool shadowed = !seen.states.empty();
     if (shadowed) {
         programs.useFilter(seen.states.front()->filter.get());
-        const auto shadows =
-            maps.prepare(seen.states, seen.camera.view, drawer.flat().bounds(), drawer);
+        const auto shadows = prepareMaps(seen, viewport);
         done.shadowTriangles += shadows.triangles;
         done.pagesDrawn += shadows.pagesDrawn;
         done.pagesKept += shadows.pagesKept;
@@ -287,7 +289,7 @@ Result<void> Renderer::Parts::drawViewport(const scene::Window& window,
         done.chunksCulled += drawn.chunksCulled;
     };
     count(drawer.drawOpaque(pass));
-    if (foreign) combine(target, seen, lit.maps.mapsPerLight);
+    if (foreign) combine(target, seen, lit.maps);
     overlay.drawBackground(scene, viewport, seen.camera.part);
     count(drawer.drawBlended(pass));
     done.colorMs += lap(clock);
@@ -297,9 +299,22 @@ Result<void> Renderer::Parts::drawViewport(const scene::Window& window,
     return {};
 }
 
-void Renderer::Parts::combine(const Target& target, const Seen& seen, int mapsPerLight) const {
+shadow::ShadowStatistics Renderer::Parts::prepareMaps(const Seen& seen,
+                                                      const scene::Viewport& viewport) {
+    std::optional<shadow::DepthOffset> offset;
+    const auto* shadowed = dynamic_cast<const scene::ShadowViewport*>(&viewport);
+    if (shadowed != nullptr && shadowed->overrideBias)
+        offset = {.factor = shadowed->offFactor, .units = shadowed->offBias};
+    return maps.prepare(
+        seen.states,
+        {.seen = seen.drawer->seenBy(seen.camera.view), .offset = offset ? &*offset : nullptr},
+        *seen.drawer);
+}
+
+void Renderer::Parts::combine(const Target& target, const Seen& seen,
+                              const shadow::ShadowMaps::Arranged& arranged) {
     const GLuint depth = target.depthCopy(gl);
-    const GLuint program = const_cast<Programs&>(programs).combine(mapsPerLight);
+    const GLuint program = programs.combine(arranged);
     math::dmat4 shift{1.0};
     shift[3] = math::dvec4{-seen.origin, 1.0};
     const math::mat4 originFromClip{shift * glm::inverse(seen.camera.view.clipFromWorld())};
@@ -377,7 +392,7 @@ Result<image::Image> Renderer::shadowFactor(const scene::Window& window, std::si
     drawer.useOrigin(seen.origin);
     if (!seen.states.empty()) {
         p.programs.useFilter(seen.states.front()->filter.get());
-        p.maps.prepare(seen.states, seen.camera.view, drawer.flat().bounds(), drawer);
+        p.prepareMaps(seen, *viewport);
     }
     const auto lit = p.lights.upload(drawer.flat(), seen.camera.view, seen.origin, *viewport,
                                      seen.states.empty() ? nullptr : &p.maps, index);

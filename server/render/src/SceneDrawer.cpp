@@ -5,11 +5,15 @@
 namespace gnomon::render {
 namespace {
 
-void useMaps(Variant& variant, const SceneDrawer::ColorPass& pass) {
+/// @param lights  that the program is written out for
+void useMaps(Variant& variant, const SceneDrawer::ColorPass& pass, int lights) {
     if (pass.maps.mapsPerLight == 0) return;
     variant.mapsPerLight = pass.maps.mapsPerLight;
+    variant.shadowLights = pass.maps.lights;
+    variant.places = std::min({pass.maps.lights, lights, Variant::maxPlaces});
     variant.features |= Variant::shadows;
     if (pass.maps.paged) variant.features |= Variant::pagedMaps;
+    if (pass.maps.perspective) variant.features |= Variant::perspectiveMaps;
 }
 
 }  // namespace
@@ -31,6 +35,7 @@ void SceneDrawer::update(scene::Ref<scene::Node> root,
                          const field::Applied& applied,
                          const std::function<void(std::string)>& report) {
     flat_.update(root, excluded, applied);
+    chunks_.update(flat_);
     rebuilt_ = flat_.rebuilt();
     // Parameters of materials and textures are rare to change: grouping anew is simple and right.
     for (const auto& change : applied.changed) {
@@ -39,12 +44,12 @@ void SceneDrawer::update(scene::Ref<scene::Node> root,
         rebuilt_ = dynamic_cast<const scene::Material*>(container) != nullptr ||
                    dynamic_cast<const scene::Texture*>(container) != nullptr;
     }
+    if (rebuilt_ || !flat_.moved().empty()) seenFrom_.reset();
     if (rebuilt_) {
-        batches_.rebuild(flat_, aspect_, report);
+        batches_.rebuild(flat_, chunks_, aspect_, report);
         instances_.resize(flat_.instances().size());
         haveOrigin_ = false;
     } else if (!flat_.moved().empty()) {
-        batches_.move(flat_);
         if (!haveOrigin_) return;
         const auto moved = flat_.moved();
         for (const std::uint32_t i : moved) writeInstance(i);
@@ -103,21 +108,23 @@ PassStatistics SceneDrawer::gather(const ColorPass& pass, bool blended) {
     const auto states = batches_.batches();
     items_.resize(std::max({items_.size(), states.size(), batches_.depthBatches().size()}));
     for (auto& items : items_) items.clear();
-    for (const Drawable& drawable : batches_.drawables()) {
+    const auto drawables = batches_.drawables();
+    std::uint64_t looked = 0;
+    chunks_.tree().visit(planes, [&](std::uint32_t use, bool) {
+        const Drawable& drawable = drawables[use];
+        if (drawable.batch == Drawable::none) return;
         const BatchState& state = states[drawable.batch];
-        if (state.blend != blended) continue;
-        if (!math::mayIntersect(planes, drawable.bounds)) {
-            ++done.chunksCulled;
-            continue;
-        }
-        const math::dvec3 nearest =
-            glm::clamp(pass.eyeWorld, drawable.bounds.min, drawable.bounds.max);
-        const math::dvec3 way = (blended ? drawable.bounds.centre() : nearest) - pass.eyeWorld;
+        ++looked;
+        if (state.blend != blended) return;
+        const math::Box& box = chunks_.bounds(use);
+        const math::dvec3 nearest = glm::clamp(pass.eyeWorld, box.min, box.max);
+        const math::dvec3 way = (blended ? box.centre() : nearest) - pass.eyeWorld;
         items_[drawable.batch].push_back(
             {.distance = static_cast<float>(glm::dot(way, way)), .command = drawable.command});
         ++done.chunks;
         if (state.primitive == GL_TRIANGLES) done.triangles += drawable.command.count / 3;
-    }
+    });
+    if (!blended) done.chunksCulled = drawables.size() - looked;
     return done;
 }
 
@@ -159,13 +166,13 @@ void SceneDrawer::flush(std::span<const BatchState> states,
 void SceneDrawer::useSurface(const BatchState& state, const ColorPass& pass) {
     Variant variant{.format = state.format, .features = state.features};
     if (pass.scopedLights) variant.features |= Variant::scopedLights;
-    useMaps(variant, pass);
     variant.directionalLights = std::min(pass.directionalLights, Variant::maxDirectional);
     variant.otherLights = pass.lights - variant.directionalLights;
     if (variant.otherLights > Variant::maxOther) {
         variant.otherLights = 0;
         variant.features |= Variant::manyLights;
     }
+    useMaps(variant, pass, variant.directionalLights + variant.otherLights);
     if ((state.features & Variant::unlit) != 0) {
         variant = {.format = state.format, .features = state.features};
     }
@@ -275,7 +282,7 @@ void SceneDrawer::drawFactor(const ColorPass& pass) {
                 .pass = Variant::Pass::factor,
                 .format = state.format,
                 .features = state.features & (Variant::alphaMask | Variant::diffuseMap)};
-            useMaps(variant, pass);
+            useMaps(variant, pass, 1);
             const GLuint program = programs_.mesh(variant);
             gl_.UseProgram(program);
             gl_.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, &pass.clipFromOrigin[0][0]);
@@ -285,27 +292,29 @@ void SceneDrawer::drawFactor(const ColorPass& pass) {
         false);
 }
 
-shadow::CasterSource::Drawn SceneDrawer::drawCasters(const math::mat4& clipFromOrigin,
-                                                     std::span<const math::Plane> sides) {
+std::span<const math::dvec3> SceneDrawer::seenBy(const math::View& view) {
+    const math::dmat4 clipFromWorld = view.clipFromWorld();
+    if (seenFrom_ != clipFromWorld) {
+        seen_.clear();
+        seen_.add(view, nullptr, chunks_.tree());
+        seenFrom_ = clipFromWorld;
+    }
+    return seen_.points();
+}
+
+shadow::CasterSource::Drawn SceneDrawer::drawCasters(const Pass& pass) {
     Drawn done;
     const auto states = batches_.depthBatches();
     items_.resize(std::max({items_.size(), states.size(), batches_.batches().size()}));
     for (auto& items : items_) items.clear();
-    for (const Drawable& drawable : batches_.drawables()) {
-        if (drawable.depthBatch == Drawable::none) continue;
-        const math::Box& box = drawable.bounds;
-        bool outside = box.empty();
-        for (const math::Plane& side : sides) {
-            const math::dvec3 furthest{side.normal.x > 0.0 ? box.max.x : box.min.x,
-                                       side.normal.y > 0.0 ? box.max.y : box.min.y,
-                                       side.normal.z > 0.0 ? box.max.z : box.min.z};
-            outside = outside || side.distance(furthest) < 0.0;
-        }
-        if (outside) continue;
+    const auto drawables = batches_.drawables();
+    chunks_.tree().visit(pass.volume, [&](std::uint32_t use, bool) {
+        const Drawable& drawable = drawables[use];
+        if (drawable.depthBatch == Drawable::none) return;
         items_[drawable.depthBatch].push_back({.command = drawable.command});
         ++done.chunks;
         done.triangles += drawable.command.count / 3;
-    }
+    });
     flush(
         states,
         [&](const BatchState& state) {
@@ -316,7 +325,7 @@ shadow::CasterSource::Drawn SceneDrawer::drawCasters(const math::mat4& clipFromO
                                 .format = masked ? state.format & (hasTexCoords | hasColors) : 0U,
                                 .features = state.features});
             gl_.UseProgram(program);
-            gl_.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, &clipFromOrigin[0][0]);
+            gl_.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, &pass.clipFromOrigin[0][0]);
             if (masked) {
                 batches_.bindMaterial(state.material);
                 gl_.BindTextures(0, 3, state.textures.data());

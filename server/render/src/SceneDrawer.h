@@ -1,8 +1,10 @@
 #pragma once
 
 #include <gnomon/shadow/ShadowMaps.h>
+#include <gnomon/shadow_fit/Receivers.h>
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,6 +31,9 @@ public:
                 const field::Applied& applied, const std::function<void(std::string)>& report);
     const scene::FlatScene& flat() const noexcept { return flat_; }
     const Batches& batches() const noexcept { return batches_; }
+    /// Corners of what a view sees: the boxes of chunks, cut to it. The same span as long as
+    /// neither view nor scene changes; good until the next call.
+    std::span<const math::dvec3> seenBy(const math::View& view);
     /// True when what may cast changed beyond moved instances since the last update.
     bool castersRebuilt() const noexcept { return rebuilt_; }
 
@@ -53,8 +58,7 @@ public:
     /// The first light's factor on everything opaque.
     void drawFactor(const ColorPass& pass);
 
-    Drawn drawCasters(const math::mat4& clipFromOrigin,
-                      std::span<const math::Plane> sidesWorld) override;
+    Drawn drawCasters(const Pass& pass) override;
 
 private:
     struct Item {
@@ -81,7 +85,10 @@ private:
     MeshStore& meshes_;
     Programs& programs_;
     scene::FlatScene flat_;
+    scene::ChunkTree chunks_;
     Batches batches_;
+    shadow_fit::Receivers seen_;
+    std::optional<math::dmat4> seenFrom_ = {};  // clipFromWorld of the view
     math::dvec3 origin_{0.0};
     bool haveOrigin_ = false;
     bool rebuilt_ = true;

@@ -1,9 +1,6 @@
 #include <gnomon/shadow_fit/Fit.h>
 
 #include <algorithm>
-#include <cmath>
-
-#include "LightCamera.h"
 
 namespace gnomon::shadow_fit {
 namespace {
@@ -40,28 +37,6 @@ Result<TechniqueName> parseTechnique(std::string_view text,
                                       "\", expected one of: " + all);
     }
     return name;
-}
-
-std::vector<math::dvec3> receiverPoints(const FitInput& input) {
-    std::vector<math::dvec3> points;
-    for (const math::View& view : input.views) {
-        const math::dmat4 clip = view.clipFromWorld();
-        if (!math::isFinite(clip)) continue;
-        math::ConvexBody body{math::frustumCorners(clip)};
-        body.clip(input.scene);
-        if (input.light.kind != LightKind::directional && input.light.range > 0.0) {
-            const math::dvec3 reach{input.light.range};
-            body.clip(math::Box{.min = input.light.position - reach,
-                                .max = input.light.position + reach});
-        }
-        if (input.light.kind == LightKind::spot) {
-            const auto planes = math::frustumPlanes(coneCamera(input.light, 1e-4, 1.0));
-            for (int i = 0; i < 4; ++i) body.clip(planes[static_cast<std::size_t>(i)]);
-        }
-        for (const math::dvec3& p : body.points())
-            if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) points.push_back(p);
-    }
-    return points;
 }
 
 }  // namespace gnomon::shadow_fit

@@ -15,7 +15,16 @@ constexpr std::array<std::string_view, 5> filterNames{"hard", "pcf", "ppcf", "vs
 /// bits of maps that could be kept. A thousandth of a millimetre of float resolution at this range.
 constexpr double originStep = 32.0;
 
+/// Rays a side of a view's picture that the fits judge their maps by.
+constexpr int samplesPerSide = 24;
+
 }  // namespace
+
+struct ShadowFitter::Scene {
+    explicit Scene(const field::Aspect& session) : flat{session} {}
+    scene::FlatScene flat;
+    ClusterTree clusters = {};
+};
 
 struct ShadowFitter::Group {
     field::Id id = {};
@@ -60,14 +69,17 @@ void ShadowFitter::update(field::Aspect& session, const field::Applied& applied)
     std::vector<Group> groups;
     collectGroups(session, groups);
     for (const Group& group : groups) {
-        auto& flat = scenes_[group.viewport->root->id];
-        if (!flat) flat = std::make_unique<scene::FlatScene>(session);
+        auto& scene = scenes_[group.viewport->root->id];
+        if (!scene) scene = std::make_unique<Scene>(session);
     }
     std::erase_if(scenes_, [&](const auto& entry) {
         return std::none_of(groups.begin(), groups.end(),
                             [&](const Group& g) { return g.viewport->root->id == entry.first; });
     });
-    for (auto& [root, flat] : scenes_) flat->update(scene::Ref<scene::Node>{root}, {}, applied);
+    for (auto& [root, scene] : scenes_) {
+        scene->flat.update(scene::Ref<scene::Node>{root}, {}, applied);
+        scene->clusters.update(scene->flat, applied);
+    }
     for (const Group& group : groups) fit(session, group);
     dropUnused(session);
 }
@@ -120,7 +132,9 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group) {
     const FitInfo& info = *std::find_if(infos.begin(), infos.end(),
                                         [&](const FitInfo& i) { return i.name == technique->fit; });
 
-    const scene::FlatScene& flat = *scenes_.at(group.viewport->root->id);
+    const Scene& seen = *scenes_.at(group.viewport->root->id);
+    const scene::FlatScene& flat = seen.flat;
+    const auto samples = samplePicture(group.views, seen.clusters.boxes(), samplesPerSide);
     math::dvec3 eye{0.0};
     for (const math::View& view : group.views)
         eye += view.eyeWorld() / static_cast<double>(group.views.size());
@@ -150,8 +164,16 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group) {
             state = &session.create<scene::ShadowState>();
             held.state = state->id();
         }
-        Fitted fitted = info.fit(
-            {.light = light, .views = group.views, .scene = flat.bounds(), .mapSize = rounded});
+        receivers_.clear();
+        for (const math::View& view : group.views)
+            receivers_.add(view, &light, seen.clusters.boxes());
+        Fitted fitted = info.fit({.light = light,
+                                  .views = group.views,
+                                  .receivers = receivers_,
+                                  .samples = samples,
+                                  .scene = flat.bounds(),
+                                  .mapSize = rounded,
+                                  .settings = {.range = group.viewport->range}});
         std::vector<math::dmat4> maps;
         for (const FittedMap& map : fitted.maps) {
             if (!math::isFinite(map.clipFromWorld)) {
@@ -165,8 +187,8 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group) {
         e->light = *use.node;
         e->group = field::WeakRef<field::FieldContainer>{group.id};
         e->filter = technique->filter;
-        e->mapSize = rounded;
-        e->pageSize = page;
+        e->mapSize = fitted.mapSize > 0 ? fitted.mapSize : rounded;
+        e->pageSize = std::min(page, e->mapSize.get());
         e->origin = origin;
         e->degenerate = fitted.degenerate;
         e->clipFromWorld.assign(std::move(maps));

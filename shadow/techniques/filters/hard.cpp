@@ -1,4 +1,4 @@
-// One comparison a pixel, interpolated between the four nearest texels by the hardware.
+// One comparison a pixel, interpolated between the four nearest texels.
 // William Reeves, David Salesin, Robert Cook. Rendering Antialiased Shadows with Depth Maps. 1987.
 #include <gnomon/shadow/Filter.h>
 
@@ -8,8 +8,8 @@ FilterInfo describe_hard() {
     return {.name = "hard",
             .source = "Reeves, Salesin, Cook 1987",
             .glsl = R"glsl(
-float filteredShadow(uint map, vec3 q) {
-    return pageCompare(map, q.xy * shadowMaps[map].texel.z, q.z);
+float filteredShadow(uint map, ShadowPoint point) {
+    return pageCompare(map, point.place.xy, point.place.z, point.slope);
 }
 )glsl",
             .radiusTexels = 1.0F};

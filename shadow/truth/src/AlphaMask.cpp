@@ -54,7 +54,8 @@ AlphaMask::AlphaMask(const field::Aspect& aspect, const scene::Geometry& geometr
 float AlphaMask::texel(int x, int y) const {
     const auto column = static_cast<std::size_t>(wrapped(x, size_.x, wrapS_));
     const auto row = static_cast<std::size_t>(wrapped(y, size_.y, wrapT_));
-    return static_cast<float>(pixels_[row * static_cast<std::size_t>(size_.x) + column][3]) / 255.0F;
+    return static_cast<float>(pixels_[row * static_cast<std::size_t>(size_.x) + column][3]) /
+           255.0F;
 }
 
 float AlphaMask::textureAlpha(math::vec2 at) const {

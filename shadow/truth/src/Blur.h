@@ -20,6 +20,7 @@ struct Plane {
 
 /// Convolves rows with one kernel and columns with another, both of odd length; beyond the border
 /// the nearest pixel is repeated.
-Plane separable(const Plane& from, const std::vector<float>& rows, const std::vector<float>& columns);
+Plane separable(const Plane& from, const std::vector<float>& rows,
+                const std::vector<float>& columns);
 
 }  // namespace gnomon::truth

@@ -9,15 +9,13 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-float linear(float s) {
-    return s <= 0.04045F ? s / 12.92F : std::pow((s + 0.055F) / 1.055F, 2.4F);
-}
+float linear(float s) { return s <= 0.04045F ? s / 12.92F : std::pow((s + 0.055F) / 1.055F, 2.4F); }
 
 /// CIE lightness, 0 to 100, from relative luminance.
 float lightness(float y) {
     constexpr float delta = 6.0F / 29.0F;
-    const float f = y > delta * delta * delta ? std::cbrt(y)
-                                              : y / (3.0F * delta * delta) + 4.0F / 29.0F;
+    const float f =
+        y > delta * delta * delta ? std::cbrt(y) : y / (3.0F * delta * delta) + 4.0F / 29.0F;
     return 116.0F * f - 16.0F;
 }
 
@@ -30,8 +28,8 @@ std::vector<float> normalized(std::vector<float> kernel, float sum) {
 std::vector<float> sensitivity(float pixelsPerDegree) {
     constexpr float b = 0.0047F;
     const float scale = pi * pi / b;
-    const auto reach = static_cast<int>(
-        std::ceil(3.0F * std::sqrt(0.04F / (2.0F * pi * pi)) * pixelsPerDegree));
+    const auto reach =
+        static_cast<int>(std::ceil(3.0F * std::sqrt(0.04F / (2.0F * pi * pi)) * pixelsPerDegree));
     std::vector<float> kernel;
     float sum = 0.0F;
     for (int k = -reach; k <= reach; ++k) {
@@ -95,13 +93,11 @@ Plane flip(const Plane& reference, const Plane& test, float pixelsPerDegree) {
     const float knee = pc * largest;
     Plane done = reference;
     for (std::size_t i = 0; i < done.values.size(); ++i) {
-        const float apart =
-            std::abs(lightness(std::clamp(seenA.values[i], 0.0F, 1.0F)) -
-                     lightness(std::clamp(seenB.values[i], 0.0F, 1.0F)));
+        const float apart = std::abs(lightness(std::clamp(seenA.values[i], 0.0F, 1.0F)) -
+                                     lightness(std::clamp(seenB.values[i], 0.0F, 1.0F)));
         const float power = std::pow(apart, qc);
-        const float color = power < knee
-                                ? pt / knee * power
-                                : pt + (power - knee) / (largest - knee) * (1.0F - pt);
+        const float color =
+            power < knee ? pt / knee * power : pt + (power - knee) / (largest - knee) * (1.0F - pt);
         const auto size = [i](const Plane& x, const Plane& y) {
             return std::hypot(x.values[i], y.values[i]);
         };
@@ -109,8 +105,7 @@ Plane flip(const Plane& reference, const Plane& test, float pixelsPerDegree) {
                                     size(featuresB.edgeX, featuresB.edgeY));
         const float point = std::abs(size(featuresA.pointX, featuresA.pointY) -
                                      size(featuresB.pointX, featuresB.pointY));
-        const float feature =
-            std::pow(std::max(edge, point) / std::numbers::sqrt2_v<float>, qf);
+        const float feature = std::pow(std::max(edge, point) / std::numbers::sqrt2_v<float>, qf);
         done.values[i] = std::pow(color, 1.0F - std::min(feature, 1.0F));
     }
     return done;

@@ -89,8 +89,8 @@ LightSampler::Ray LightSampler::sample(const dvec3& from, dvec2 at) const {
     const dvec3 direction = inCone(middle.direction, u, v, cosine, at);
     // To the sphere's near side: what is inside the light does not shadow.
     const double along = glm::dot(position_ - from, direction);
-    const double square = light_.extent * light_.extent -
-                          (middle.reach * middle.reach - along * along);
+    const double square =
+        light_.extent * light_.extent - (middle.reach * middle.reach - along * along);
     return {.direction = direction, .reach = along - std::sqrt(std::max(square, 0.0))};
 }
 

@@ -67,8 +67,7 @@ void filter(const RTCFilterFunctionNArguments* a) {
         }
         if (mesh.mask) {
             const auto& corners = mesh.triangles[RTCHitN_primID(a->hit, a->N, i)];
-            if (!mesh.mask->covers(corners, RTCHitN_u(a->hit, a->N, i),
-                                   RTCHitN_v(a->hit, a->N, i)))
+            if (!mesh.mask->covers(corners, RTCHitN_u(a->hit, a->N, i), RTCHitN_v(a->hit, a->N, i)))
                 a->valid[i] = 0;
         }
     }
@@ -85,7 +84,7 @@ struct RayScene::Parts {
     /// One use of a mesh, in both upper levels or one.
     struct Use {
         const Mesh* mesh = nullptr;
-        Geometry seen = {};     ///< an instance in `drawn`
+        Geometry seen = {};      ///< an instance in `drawn`
         Geometry blocking = {};  ///< and in `casters`; null where it does not cast
         math::dmat4 originFromLocal{1.0};
         math::dmat3 normalFromLocal{1.0};
@@ -98,8 +97,8 @@ struct RayScene::Parts {
     };
 
     const Mesh* mesh(const scene::FlatScene::Instance& instance);
-    std::unique_ptr<Mesh> build(const scene::Geometry& geometry,
-                                const scene::PhongMaterial* masked, bool singleSided) const;
+    std::unique_ptr<Mesh> build(const scene::Geometry& geometry, const scene::PhongMaterial* masked,
+                                bool singleSided) const;
     void rebuild(const scene::FlatScene& flat);
     void place(Use& use, const math::dmat4& worldFromLocal) const;
     Geometry instanceOf(const Mesh& mesh, RTCScene into, unsigned id) const;
@@ -263,8 +262,7 @@ std::optional<RayScene::Hit> RayScene::firstHit(const dvec3& from, const dvec3& 
     const double u = query.hit.u;
     const double v = query.hit.v;
     Hit hit{.distance = query.ray.tfar};
-    hit.position =
-        dvec3{use.originFromLocal * math::dvec4{a * (1.0 - u - v) + b * u + c * v, 1.0}};
+    hit.position = dvec3{use.originFromLocal * math::dvec4{a * (1.0 - u - v) + b * u + c * v, 1.0}};
     const dvec3 normal = use.normalFromLocal * glm::cross(b - a, c - a);
     const double length = glm::length(normal);
     // A triangle without area is never hit; one that a transform flattened faces the ray.

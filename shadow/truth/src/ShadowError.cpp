@@ -73,7 +73,8 @@ Result<ShadowError> compareFactors(const image::Image& truth, const image::Image
         double sum = 0.0;
         for (const float d : displaced) sum += d;
         error.edgeMean = sum / static_cast<double>(displaced.size());
-        const auto at = displaced.begin() + static_cast<std::ptrdiff_t>(displaced.size() * 95 / 100);
+        const auto at =
+            displaced.begin() + static_cast<std::ptrdiff_t>(displaced.size() * 95 / 100);
         std::nth_element(displaced.begin(), at, displaced.end());
         error.edge95 = *at;
     }

@@ -2,73 +2,141 @@
 
 namespace gnomon::shadow {
 
-std::string_view lookupGlsl() noexcept {
-    // The depth offset is along the receiver's normal. A lookup reaches r + 1/2 texels to each
-    // side, over which a plane at angle a to the light rises sqrt(2) (r + 1/2) t tan(a); moving the
-    // receiver by o along its normal clears o / cos(a). The small constant covers rounding where
-    // the plane faces the light. Source: Daniel Holbert. Saying Goodbye to Shadow Acne. GDC 2011.
+std::string_view mapsGlsl() noexcept {
     return R"glsl(
 struct ShadowMap {
-    mat4 clipFromOrigin;
-    vec4 texel;   // x: metres a texel at w = 1, y: reach in texels, z: map size, w: page size
-    uvec4 pages;  // x: pages a side, y: first entry of the table, z: the layer where x is 1
+    mat4 mapFromOrigin;  // x and y in texels, z reversed depth, all times w
+    vec4 fromFirst;      // texels of this map from those of the light's first: scale, offset
+    vec4 size;           // x: texels a side, y: of a page, z: 1 / (page with its border)
+    uvec4 pages;         // x: pages a side, y: first entry of the table, z: the layer where x is 1
 };
 layout(std140, binding = 4) uniform ShadowMapBlock { ShadowMap shadowMaps[128]; };
+
+// Where a place, relative to the group's origin, is in a light's first map.
+vec4 shadowPlace(int first, vec3 position) {
+    return shadowMaps[first].mapFromOrigin * vec4(position, 1.0);
+}
+)glsl";
+}
+
+std::string_view lookupGlsl() noexcept {
+    // Depth is compared texel by texel with the receiver's own plane, so that a plane does not
+    // shadow itself at whatever slope, and nothing is moved toward the light to see to that: a
+    // caster may all but touch what it shadows. Source: Hang Dou, Yajie Yan, Ethan Kerzner, Zeng
+    // Dai, Chris Wyman. Adaptive Depth Bias for Shadow Maps. 2014. Here the depths are gathered.
+    return R"glsl(
 layout(std140, binding = 5) uniform PageTableBlock { uvec4 pageTable[1024]; };
-layout(binding = 8) uniform sampler2DArrayShadow shadowPages;
+layout(binding = 8) uniform sampler2DArray shadowPages;
 
 const uint pageMissing = 0xffffffffu;
 
-// Bilinear comparison at a position in texels of the map. Lit where nothing was drawn.
-float pageCompare(uint map, vec2 texel, float depth) {
-    float pageSize = shadowMaps[map].texel.w;
+// What rounding may do to the plane's depth: a share of what a texel spans (vertices snap to parts of
+// a texel when a map is drawn), and of the depth itself.
+const float slackTexels = 0.1;
+const float slackDepth = 2e-6;
+
+// A receiver in a light's first map: place in texels and depth, and how much depth a texel spans on
+// its plane, to the right and up.
+struct ShadowPoint {
+    vec3 place;
+    vec2 slope;
+};
+
+// The plane through two steps on it.
+vec2 slopeOf(vec3 a, vec3 b) {
+    float area = a.x * b.y - a.y * b.x;
+    // Seen edge-on by the light a plane has no slope; what faces the light hardly ever is.
+    float safe = abs(area) > 1e-12 ? area : 1e-12;
+    return vec2(a.z * b.y - b.z * a.y, b.z * a.x - a.z * b.x) / safe;
+}
+
+vec3 projectedPlace(vec4 place) {
+#ifdef PERSPECTIVE_MAPS
+    // Behind a spot nothing is lit by it; any answer will do that is no NaN.
+    return place.xyz / max(place.w, 1e-6);
+#else
+    return place.xyz;
+#endif
+}
+
+// From an interpolated shadowPlace(). In uniform control flow.
+ShadowPoint interpolatedPoint(vec4 place) {
+    vec3 q = projectedPlace(place);
+    return ShadowPoint(q, slopeOf(dFdx(q), dFdy(q)));
+}
+
+// From a surface. @param normal  unit, of the surface's plane
+ShadowPoint foundPoint(int first, vec3 position, vec3 normal) {
+    mat4 m = shadowMaps[first].mapFromOrigin;
+    vec4 place = m * vec4(position, 1.0);
+    vec3 q = projectedPlace(place);
+    // Source: Tom Duff et al. Building an Orthonormal Basis, Revisited. 2017.
+    float s = normal.z < 0.0 ? -1.0 : 1.0;
+    float a = -1.0 / (s + normal.z);
+    float b = normal.x * normal.y * a;
+    vec4 u = m * vec4(1.0 + s * normal.x * normal.x * a, s * b, -s * normal.x, 0.0);
+    vec4 v = m * vec4(b, s + normal.y * normal.y * a, -normal.y, 0.0);
+    return ShadowPoint(q, slopeOf(u.xyz - q * u.w, v.xyz - q * v.w));
+}
+
+// Comparison at a position in texels of the map, interpolated between the four nearest texels. Lit
+// beyond the map, and where nothing was drawn: there the depth is as far away as can be.
+//   slope  of the receiver, depth a texel of this map
+float pageCompare(uint map, vec2 texel, float depth, vec2 slope) {
+    vec2 corner = floor(texel - 0.5);
+    vec2 share = texel - 0.5 - corner;
 #ifdef PAGED_MAPS
+    float pageSize = shadowMaps[map].size.y;
     uint side = shadowMaps[map].pages.x;
     uvec2 page = uvec2(clamp(texel / pageSize, vec2(0.0), vec2(float(side) - 1.0)));
     uint entry = shadowMaps[map].pages.y + page.y * side + page.x;
     uint layer = pageTable[entry >> 2u][entry & 3u];
-    texel -= vec2(page) * pageSize;
+    if (layer == pageMissing) return 1.0;
+    corner -= vec2(page) * pageSize;
 #else
     uint layer = shadowMaps[map].pages.z;
 #endif
-    if (layer == pageMissing) return 1.0;
-    return texture(shadowPages, vec4((texel + 1.0) / (pageSize + 2.0), float(layer), depth));
+    // Between the four: one texel of border, one to their common corner.
+    vec4 casters = textureGather(
+        shadowPages, vec3((corner + 2.0) * shadowMaps[map].size.z, float(layer)));
+    float slack = (abs(slope.x) + abs(slope.y)) * slackTexels + slackDepth;
+    float here = depth - dot(slope, share) + slack;
+    vec4 plane = vec4(here + slope.y, here + slope.x + slope.y, here + slope.x, here);
+    vec4 lit = vec4(greaterThanEqual(plane, casters));
+    vec2 row = mix(lit.wx, lit.zy, share.x);
+    return mix(row.x, row.y, share.y);
 }
 
-float filteredShadow(uint map, vec3 q);
+float filteredShadow(uint map, ShadowPoint point);
 
-// How much of a light reaches a surface: 1 all, 0 nothing. The first of its maps that holds the
-// place decides; outside all of them it is lit.
-//   first     the light's first map: MAPS_PER_LIGHT times its index. A constant where the call is
-//             unrolled, so that the map's data is read once for all pixels, not for each.
-//   count     how many maps it has
-//   position  relative to the group's origin
-//   normal    of the surface, unit, on the side that is seen
-//   nDotL     cosine to the light, > 0
-float shadowFactor(int first, int count, vec3 position, vec3 normal, float nDotL) {
-    float square = 1.0 - nDotL * nDotL;
+// Beyond this share of a map's side from its middle the next map is blended in.
+const float blendFrom = 0.46;
+
+// How much of a light reaches a place: 1 all, 0 nothing. Outside its maps it is lit.
+//   first  the light's first map: MAPS_PER_LIGHT times its index. A constant where the call is
+//          unrolled, so that the map's data is read once for all pixels, not for each.
+float shadowFactor(int first, ShadowPoint point) {
+#if MAPS_PER_LIGHT > 1
+    // The first map that holds the place decides, mixed with the next one toward its border.
     float factor = 1.0;
-    bool found = false;
-    for (int k = 0; k < MAPS_PER_LIGHT; ++k) {
+    float last = 1.0;
+    float open = 1.0;
+    for (int k = 0; k < MAPS_PER_LIGHT && open > 0.0; ++k) {
         uint map = uint(first + k);
-        mat4 m = shadowMaps[map].clipFromOrigin;
-        vec4 texelInfo = shadowMaps[map].texel;
-        float w = m[0].w * position.x + m[1].w * position.y + m[2].w * position.z + m[3].w;
-        // A spot's map measures depth along its axis: a surface may face the light and yet be steep
-        // in the map. A parallel light's rows have no w, and its axis is the light's direction.
-        vec3 axis = vec3(m[0].w, m[1].w, m[2].w);
-        float along = dot(axis, normal);
-        float sine = sqrt(max(max(square, dot(axis, axis) - along * along), 0.0));
-        float offset = texelInfo.x * w * (0.05 + 1.4142 * texelInfo.y * sine);
-        vec4 clip = m * vec4(position + normal * offset, 1.0);
-        vec3 q = clip.xyz / clip.w;
-        q.xy = q.xy * 0.5 + 0.5;
-        bool inside = k < count && w > 0.0 && all(greaterThanEqual(q.xy, vec2(0.0))) &&
-                      all(lessThanEqual(q.xy, vec2(1.0)));
-        if (inside && !found) factor = filteredShadow(map, q);
-        found = found || inside;
+        vec4 fromFirst = shadowMaps[map].fromFirst;
+        vec2 at = point.place.xy * fromFirst.xy + fromFirst.zw;
+        vec2 off = abs(at / max(shadowMaps[map].size.x, 1.0) - 0.5);
+        float inside = 0.5 - max(off.x, off.y);
+        if (inside < 0.0) continue;
+        float share = min(inside / (0.5 - blendFrom), 1.0);
+        last = filteredShadow(map, ShadowPoint(vec3(at, point.place.z), point.slope / fromFirst.xy));
+        factor += open * share * (last - 1.0);
+        open *= 1.0 - share;
     }
-    return factor;
+    return factor + open * (last - 1.0);
+#else
+    return filteredShadow(uint(first), point);
+#endif
 }
 )glsl";
 }

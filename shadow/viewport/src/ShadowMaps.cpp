@@ -1,10 +1,11 @@
-#include <gnomon/math/ConvexBody.h>
 #include <gnomon/shadow/Filter.h>
 #include <gnomon/shadow/ShadowMaps.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "CasterVolume.h"
 #include "Pool.h"
 
 namespace gnomon::shadow {
@@ -29,43 +30,27 @@ math::Rect pageRect(int x, int y, int pageSize, int mapSize) {
             .height = (pageSize + 2) / size};
 }
 
-/// Larger side of a texel of the map, in metres, where clip w is 1.
-double texelMetres(const math::dmat4& clipFromWorld, int mapSize) {
-    // Moving one metre across the light's view moves |row x| in clip units: the row without what it
-    // has of w's, which an off-centre crop puts there.
-    const math::dmat4 rows = glm::transpose(clipFromWorld);
-    const math::dvec3 depth{rows[3]};
-    const double square = glm::dot(depth, depth);
-    const auto across = [&](const math::dvec4& row) {
-        const math::dvec3 all{row};
-        return glm::length(square > 0.0 ? all - depth * (glm::dot(all, depth) / square) : all);
-    };
-    const double x = across(rows[0]);
-    const double y = across(rows[1]);
-    const double least = std::min(x, y);
-    return least > 0.0 ? 2.0 / (least * mapSize) : 0.0;
-}
-
 struct PageRange {
     int left = 0, right = -1, bottom = 0, top = -1;
+
+    bool empty() const noexcept { return right < left || top < bottom; }
+    std::uint64_t count() const noexcept {
+        return empty() ? 0U : static_cast<std::uint64_t>((right - left + 1) * (top - bottom + 1));
+    }
 };
 
 /// The pages a view may look up: around the image of what it sees.
-PageRange seenPages(const math::dmat4& clipFromWorld, std::span<const math::dvec3> seen,
-                    int pagesPerSide, int mapSize) {
+PageRange seenPages(const SeenInMap& seen, int pagesPerSide, int mapSize) {
     const PageRange all{.left = 0, .right = pagesPerSide - 1, .bottom = 0, .top = pagesPerSide - 1};
-    if (seen.empty()) return {};
-    if (pagesPerSide == 1) return all;
+    if (seen.anywhere) return all;
+    if (seen.points.empty()) return {};
     math::dvec2 low{1.0};
     math::dvec2 high{-1.0};
-    for (const auto& p : seen) {
-        const math::dvec4 clip = clipFromWorld * math::dvec4{p, 1.0};
-        if (!(clip.w > 0.0)) return all;
-        const math::dvec2 q = math::dvec2{clip} / clip.w;
-        low = glm::min(low, q);
-        high = glm::max(high, q);
+    for (const auto& q : seen.points) {
+        low = glm::min(low, math::dvec2{q});
+        high = glm::max(high, math::dvec2{q});
     }
-    // Four texels around: the normal offset and the filter.
+    // Four texels around, for the filter.
     const double slack = 8.0 / mapSize;
     const auto page = [&](double clip) {
         return static_cast<int>(
@@ -82,15 +67,45 @@ PageRange seenPages(const math::dmat4& clipFromWorld, std::span<const math::dvec
 
 }  // namespace
 
-/// As ShadowMap in LookupGlsl.cpp, std140.
+/// As ShadowMap in LookupGlsl.cpp, std140. Without a map: a place far beyond its border.
 struct ShadowMaps::MapBlock {
-    math::mat4 clipFromOrigin{1.0F};
-    math::vec4 texel{0.0F};
-    glm::uvec4 pages{0U};
+    math::mat4 mapFromOrigin{math::vec4{0.0F}, math::vec4{0.0F}, math::vec4{0.0F},
+                             math::vec4{-1e6F, -1e6F, 1.0F, 1.0F}};
+    math::vec4 fromFirst{0.0F, 0.0F, -1e6F, -1e6F};
+    math::vec4 size{1.0F, 1.0F, 1.0F, 0.0F};
+    glm::uvec4 pages{1U, 0U, 0U, 0U};
+    bool perspective() const {
+        return mapFromOrigin[0].w != 0.0F || mapFromOrigin[1].w != 0.0F ||
+               mapFromOrigin[2].w != 0.0F || mapFromOrigin[3].w != 1.0F;
+    }
+};
+
+struct ShadowMaps::Page {
+    Pool* pool = nullptr;
+    int layer = -1;
+    math::dmat4 clipFromWorld{0.0};  ///< of the map, when drawn
+    math::dvec3 origin{0.0};
+    DepthOffset offset = {};
+    CasterVolume volume = {};  ///< what casts, when drawn
+    bool valid = false;
+    std::uint64_t used = 0;
+};
+
+struct ShadowMaps::Frame {
+    const View& view;
+    CasterSource& casters;
+    Pool& pool;
+    float radiusTexels = 1.0F;
+    ShadowStatistics& done;
+    SeenInMap seen = {};
+    math::dmat4 firstFromWorld{1.0};  ///< of the light's first map, to its texels
+    bool drawing = false;
+
+    DepthOffset offset() const { return view.offset == nullptr ? DepthOffset{} : *view.offset; }
 };
 
 ShadowMaps::ShadowMaps(const gl::Api& gl)
-    : gl_{gl}, mapsBuffer_{gl}, tableBuffer_{gl}, framebuffer_{gl}, compare_{gl} {
+    : gl_{gl}, mapsBuffer_{gl}, tableBuffer_{gl}, framebuffer_{gl}, sampler_{gl} {
     mapsBuffer_.label("shadow maps");
     tableBuffer_.label("page table");
     framebuffer_.label("shadow page");
@@ -99,13 +114,13 @@ ShadowMaps::ShadowMaps(const gl::Api& gl)
     gl_.NamedBufferStorage(tableBuffer_.id(), sizeof(std::uint32_t) * maxTableEntries, nullptr,
                            GL_DYNAMIC_STORAGE_BIT);
     gl_.NamedFramebufferDrawBuffer(framebuffer_.id(), GL_NONE);
-    gl_.SamplerParameteri(compare_.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    gl_.SamplerParameteri(compare_.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    gl_.SamplerParameteri(compare_.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl_.SamplerParameteri(compare_.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    gl_.SamplerParameteri(compare_.id(), GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-    // Depth is reversed: lit where the receiver is at least as near to the light as the caster.
-    gl_.SamplerParameteri(compare_.id(), GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);
+    // Gathered, so that filtering has no say; beyond a page there is nothing, far away.
+    gl_.SamplerParameteri(sampler_.id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl_.SamplerParameteri(sampler_.id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl_.SamplerParameteri(sampler_.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+    gl_.SamplerParameteri(sampler_.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+    const std::array<float, 4> nothing{0.0F, 0.0F, 0.0F, 0.0F};
+    gl_.SamplerParameterfv(sampler_.id(), GL_TEXTURE_BORDER_COLOR, nothing.data());
 }
 
 ShadowMaps::~ShadowMaps() = default;
@@ -123,137 +138,157 @@ void ShadowMaps::release(Page& page) noexcept {
 
 void ShadowMaps::dropOld() {
     for (auto at = pages_.begin(); at != pages_.end();) {
-        if (at->second.used + keepFrames >= round_) {
+        if (at->second->used + keepFrames >= round_) {
             ++at;
             continue;
         }
-        release(at->second);
+        release(*at->second);
         at = pages_.erase(at);
     }
 }
 
 void ShadowMaps::invalidateAll() {
-    for (auto& [key, page] : pages_) page.valid = false;
+    for (auto& [key, page] : pages_) page->valid = false;
 }
 
 void ShadowMaps::invalidate(std::span<const math::Box> moved) {
     for (auto& [key, page] : pages_) {
-        if (!page.valid) continue;
+        if (!page->valid) continue;
         for (const math::Box& box : moved) {
-            const bool outside =
-                box.empty() ||
-                std::any_of(page.sides.begin(), page.sides.end(), [&](const math::Plane& side) {
-                    const math::dvec3 furthest{side.normal.x > 0.0 ? box.max.x : box.min.x,
-                                               side.normal.y > 0.0 ? box.max.y : box.min.y,
-                                               side.normal.z > 0.0 ? box.max.z : box.min.z};
-                    return side.distance(furthest) < 0.0;
-                });
-            if (outside) continue;
-            page.valid = false;
+            if (!mayIntersect(page->volume.planes(), box)) continue;
+            page->valid = false;
             break;
         }
     }
 }
 
+void ShadowMaps::drawPage(Page& page, Frame& frame, const math::dmat4& decorate,
+                          const math::dmat4& clipFromWorld, const scene::ShadowState& state) {
+    const auto sides = math::frustumPlanes(decorate * clipFromWorld);
+    page.volume.enclose(clipFromWorld, std::span{sides}.first(4), frame.seen,
+                        2.0 * (static_cast<double>(frame.radiusTexels) + 1.0) / state.mapSize);
+    if (!frame.drawing) {
+        gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
+        gl_.Viewport(0, 0, frame.pool.side(), frame.pool.side());
+        gl_.Enable(GL_DEPTH_TEST);
+        gl_.Enable(GL_DEPTH_CLAMP);
+        gl_.DepthFunc(GL_GREATER);
+        gl_.DepthMask(GL_TRUE);
+        if (frame.view.offset != nullptr) {
+            gl_.Enable(GL_POLYGON_OFFSET_FILL);
+            gl_.PolygonOffset(-frame.view.offset->factor, -frame.view.offset->units);
+        }
+        frame.drawing = true;
+    }
+    gl_.NamedFramebufferTextureLayer(framebuffer_.id(), GL_DEPTH_ATTACHMENT, frame.pool.texture(),
+                                     0, page.layer);
+    const float clear = 0.0F;
+    gl_.ClearNamedFramebufferfv(framebuffer_.id(), GL_DEPTH, 0, &clear);
+    const auto drawn = frame.casters.drawCasters(
+        {.clipFromOrigin = math::mat4{decorate * clipFromWorld * translation(state.origin)},
+         .volume = page.volume.planes()});
+    page.clipFromWorld = clipFromWorld;
+    page.origin = state.origin;
+    page.offset = frame.offset();
+    page.valid = true;
+    ++frame.done.pagesDrawn;
+    frame.done.triangles += drawn.triangles;
+    frame.done.texelsDrawn += static_cast<std::uint64_t>(frame.pool.side()) *
+                              static_cast<std::uint64_t>(frame.pool.side());
+}
+
+void ShadowMaps::prepareMap(const scene::ShadowState& state, std::uint32_t map, Frame& frame) {
+    const int mapSize = state.mapSize;
+    const int pageSize = state.pageSize;
+    const int side = mapSize / pageSize;
+    const math::dmat4& clipFromWorld = state.clipFromWorld[map];
+    const auto first = static_cast<std::uint32_t>(table_.size());
+    table_.resize(table_.size() + static_cast<std::size_t>(side * side), missing);
+    frame.seen.project(clipFromWorld, frame.view.seen);
+    const PageRange wanted = seenPages(frame.seen, side, mapSize);
+    for (int y = wanted.bottom; y <= wanted.top; ++y) {
+        for (int x = wanted.left; x <= wanted.right; ++x) {
+            const auto index = static_cast<std::uint32_t>(y * side + x);
+            auto& slot = pages_[{.state = state.id(), .map = map, .page = index}];
+            if (!slot) slot = std::make_unique<Page>();
+            Page& page = *slot;
+            page.used = round_;
+            if (page.pool != &frame.pool) {
+                release(page);
+                page.pool = &frame.pool;
+                page.valid = false;
+            }
+            if (page.layer < 0) page.layer = frame.pool.take();
+            table_[first + index] = static_cast<std::uint32_t>(page.layer);
+            if (page.valid && page.clipFromWorld == clipFromWorld &&
+                page.origin == state.origin.get() && page.offset == frame.offset() &&
+                page.volume.serves(frame.seen))
+                ++frame.done.pagesKept;
+            else
+                drawPage(page, frame, math::tileFromWhole(pageRect(x, y, pageSize, mapSize)),
+                         clipFromWorld, state);
+        }
+    }
+    frame.done.pagesUnseen += static_cast<std::uint64_t>(side * side) - wanted.count();
+
+    // To texels.
+    math::dmat4 texelsFromClip{1.0};
+    texelsFromClip[0][0] = texelsFromClip[1][1] = 0.5 * mapSize;
+    texelsFromClip[3][0] = texelsFromClip[3][1] = 0.5 * mapSize;
+    const math::dmat4 texelsFromWorld = texelsFromClip * clipFromWorld;
+    if (map == 0) frame.firstFromWorld = texelsFromWorld;
+    // Several maps of a light differ by scale and offset alone; what does not is left to the first.
+    const math::dmat4 fromFirst = texelsFromWorld * glm::inverse(frame.firstFromWorld);
+    blocks_.push_back(
+        {.mapFromOrigin = math::mat4{texelsFromWorld * translation(state.origin)},
+         .fromFirst = {static_cast<float>(fromFirst[0][0]), static_cast<float>(fromFirst[1][1]),
+                       static_cast<float>(fromFirst[3][0]), static_cast<float>(fromFirst[3][1])},
+         .size = {static_cast<float>(mapSize), static_cast<float>(pageSize),
+                  1.0F / static_cast<float>(pageSize + 2), 0.0F},
+         .pages = {static_cast<std::uint32_t>(side), first, table_[first], 0U}});
+}
+
 ShadowStatistics ShadowMaps::prepare(std::span<const scene::ShadowState* const> states,
-                                     const math::View& view, const math::Box& bounds,
-                                     CasterSource& casters) {
+                                     const View& view, CasterSource& casters) {
     ShadowStatistics done;
     ++round_;
     ranges_.clear();
     blocks_.clear();
     table_.clear();
     bound_ = nullptr;
-    math::ConvexBody body{math::frustumCorners(view.clipFromWorld())};
-    body.clip(bounds);
-    const auto seen = body.points();
-    bool framed = false;
-
     for (const scene::ShadowState* state : states) {
         const int mapSize = state->mapSize;
         const int pageSize = state->pageSize;
-        if (pageSize <= 0 || mapSize < pageSize || mapSize > 65536) continue;
-        const int side = mapSize / pageSize;
-        const FilterInfo* filter = findFilter(state->filter.get());
+        if (pageSize <= 0 || mapSize < pageSize || mapSize % pageSize != 0 || mapSize > 65536)
+            continue;
         done.degenerate += state->degenerate ? 1 : 0;
-        if (blocks_.size() + state->clipFromWorld.size() > maxMaps ||
-            table_.size() + state->clipFromWorld.size() * static_cast<std::size_t>(side * side) >
-                maxTableEntries)
+        const std::size_t maps = state->clipFromWorld.size();
+        const auto pages = static_cast<std::size_t>(mapSize / pageSize);
+        if (blocks_.size() + maps > maxMaps ||
+            table_.size() + maps * pages * pages > maxTableEntries)
             continue;
         Pool& pagePool = pool(pageSize);
+        if (bound_ != nullptr && bound_ != &pagePool) continue;
         bound_ = &pagePool;
-        ranges_[state->light->id] = {
-            .first = static_cast<std::uint32_t>(blocks_.size()),
-            .count = static_cast<std::uint32_t>(state->clipFromWorld.size())};
-        for (std::uint32_t map = 0; map < state->clipFromWorld.size(); ++map) {
-            const math::dmat4& clipFromWorld = state->clipFromWorld[map];
-            const math::dmat4 clipFromOrigin = clipFromWorld * translation(state->origin);
-            const auto first = static_cast<std::uint32_t>(table_.size());
-            table_.resize(table_.size() + static_cast<std::size_t>(side * side), missing);
-            const PageRange wanted = seenPages(clipFromWorld, seen, side, mapSize);
-            for (int y = wanted.bottom; y <= wanted.top; ++y) {
-                for (int x = wanted.left; x <= wanted.right; ++x) {
-                    const auto index = static_cast<std::uint32_t>(y * side + x);
-                    Page& page = pages_[{.state = state->id(), .map = map, .page = index}];
-                    page.used = round_;
-                    if (page.pool != &pagePool) {
-                        release(page);
-                        page.pool = &pagePool;
-                        page.valid = false;
-                    }
-                    if (page.layer < 0) page.layer = pagePool.take();
-                    table_[first + index] = static_cast<std::uint32_t>(page.layer);
-                    if (page.valid && page.clipFromWorld == clipFromWorld &&
-                        page.origin == state->origin.get()) {
-                        ++done.pagesKept;
-                        continue;
-                    }
-                    const math::dmat4 decorate =
-                        math::tileFromWhole(pageRect(x, y, pageSize, mapSize));
-                    const auto planes = math::frustumPlanes(decorate * clipFromWorld);
-                    std::copy_n(planes.begin(), 4, page.sides.begin());
-                    if (!framed) {
-                        gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
-                        gl_.Viewport(0, 0, pagePool.side(), pagePool.side());
-                        gl_.Enable(GL_DEPTH_TEST);
-                        gl_.Enable(GL_DEPTH_CLAMP);
-                        gl_.DepthFunc(GL_GREATER);
-                        gl_.DepthMask(GL_TRUE);
-                        framed = true;
-                    }
-                    gl_.NamedFramebufferTextureLayer(framebuffer_.id(), GL_DEPTH_ATTACHMENT,
-                                                     pagePool.texture(), 0, page.layer);
-                    const float clear = 0.0F;
-                    gl_.ClearNamedFramebufferfv(framebuffer_.id(), GL_DEPTH, 0, &clear);
-                    const auto drawn =
-                        casters.drawCasters(math::mat4{decorate * clipFromOrigin}, page.sides);
-                    page.clipFromWorld = clipFromWorld;
-                    page.origin = state->origin;
-                    page.valid = true;
-                    ++done.pagesDrawn;
-                    done.triangles += drawn.triangles;
-                    done.texelsDrawn += static_cast<std::uint64_t>(pagePool.side()) *
-                                        static_cast<std::uint64_t>(pagePool.side());
-                }
-            }
-            const auto looked =
-                static_cast<std::uint64_t>(std::max(0, wanted.right - wanted.left + 1) *
-                                           std::max(0, wanted.top - wanted.bottom + 1));
-            done.pagesUnseen += static_cast<std::uint64_t>(side * side) - looked;
-            blocks_.push_back(
-                {.clipFromOrigin = math::mat4{clipFromOrigin},
-                 .texel = {static_cast<float>(texelMetres(clipFromWorld, mapSize)),
-                           filter == nullptr ? 1.0F : filter->radiusTexels,
-                           static_cast<float>(mapSize), static_cast<float>(pageSize)},
-                 .pages = {static_cast<std::uint32_t>(side), first, table_[first], 0U}});
+        ranges_[state->light->id] = {.first = static_cast<std::uint32_t>(blocks_.size()),
+                                     .count = static_cast<std::uint32_t>(maps)};
+        const FilterInfo* filter = findFilter(state->filter.get());
+        const float radius = filter == nullptr ? 1.0F : filter->radiusTexels;
+        Frame frame{.view = view,
+                    .casters = casters,
+                    .pool = pagePool,
+                    .radiusTexels = radius,
+                    .done = done};
+        for (std::uint32_t map = 0; map < maps; ++map) prepareMap(*state, map, frame);
+        if (frame.drawing) {
+            gl_.Disable(GL_DEPTH_CLAMP);
+            gl_.Disable(GL_POLYGON_OFFSET_FILL);
         }
     }
-    if (framed) gl_.Disable(GL_DEPTH_CLAMP);
-    if (!blocks_.empty()) {
+    if (!blocks_.empty())
         gl_.NamedBufferSubData(tableBuffer_.id(), 0,
                                static_cast<GLsizeiptr>(table_.size() * sizeof(std::uint32_t)),
                                table_.data());
-    }
     for (const auto& [size, p] : pools_) done.bytes += p->bytes();
     dropOld();
     return done;
@@ -285,10 +320,14 @@ ShadowMaps::Arranged ShadowMaps::arrange(std::span<const field::Id> lights) {
     gl_.BindBufferBase(GL_UNIFORM_BUFFER, mapsBinding, mapsBuffer_.id());
     gl_.BindBufferBase(GL_UNIFORM_BUFFER, tableBinding, tableBuffer_.id());
     gl_.BindTextureUnit(pagesUnit, bound_ == nullptr ? 0 : bound_->texture());
-    gl_.BindSampler(pagesUnit, compare_.id());
+    gl_.BindSampler(pagesUnit, sampler_.id());
+    const auto some = [&](auto&& is) {
+        return std::any_of(arranged_.begin(), arranged_.end(), is);
+    };
     return {.mapsPerLight = static_cast<int>(most),
-            .paged = std::any_of(arranged_.begin(), arranged_.end(),
-                                 [](const MapBlock& block) { return block.pages.x > 1; })};
+            .lights = static_cast<int>(arranged_.size() / most),
+            .paged = some([](const MapBlock& block) { return block.pages.x > 1; }),
+            .perspective = some([](const MapBlock& block) { return block.perspective(); })};
 }
 
 }  // namespace gnomon::shadow

@@ -3,6 +3,7 @@
 #include <gnomon/math/Types.h>
 
 #include <array>
+#include <span>
 
 namespace gnomon::math {
 
@@ -59,7 +60,7 @@ View offAxis(const dvec3& eye, const ScreenCorners& screen, double near, double 
 std::array<dvec3, 8> frustumCorners(const dmat4& clipFromWorld) noexcept;
 /// Inner sides of the view volume: left, right, bottom, top, near, far.
 std::array<Plane, 6> frustumPlanes(const dmat4& clipFromWorld) noexcept;
-/// False only where the box is certainly outside. An empty box is outside.
-bool mayIntersect(const std::array<Plane, 6>& planes, const Box& box) noexcept;
+/// False only where the box is certainly outside one of the planes. An empty box is outside.
+bool mayIntersect(std::span<const Plane> planes, const Box& box) noexcept;
 
 }  // namespace gnomon::math

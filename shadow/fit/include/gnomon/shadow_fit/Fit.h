@@ -1,8 +1,8 @@
 #pragma once
 
 #include <gnomon/base/Error.h>
-#include <gnomon/math/ConvexBody.h>
 #include <gnomon/math/View.h>
+#include <gnomon/shadow_fit/Receivers.h>
 
 #include <optional>
 #include <span>
@@ -12,6 +12,10 @@
 #include <vector>
 
 namespace gnomon::shadow_fit {
+
+/// Texels a side of a page: what a shadow map is drawn, kept and skipped by. A map is as many whole
+/// pages as it needs, or a smaller single one.
+inline constexpr int pageTexels = 1024;
 
 enum class LightKind { directional, spot, point };
 
@@ -27,23 +31,37 @@ struct LightShape {
     double extent = 0.0;
 };
 
+/// What an application can set of the fits. Each fit reads what concerns it.
+struct FitSettings {
+    /// trapez: the share of the view's depth, from the front, that gets four fifths of the map.
+    double range = 0.3;
+    int cascades = 4;  ///< csm: 2 to 8
+};
+
 struct FitInput {
     LightShape light = {};
-    /// Everything the fit group sees: all eyes, whole screens.
+    /// What the fit group sees: all eyes, whole screens.
     std::span<const math::View> views = {};
+    /// What of the scene that is, and is lit: what a map must hold. Nothing: no map.
+    const Receivers& receivers;
+    /// Points of what is seen, each for an equal share of the picture.
+    std::span<const math::dvec3> samples = {};
     math::Box scene = {};  ///< bounds of all casters and receivers
-    int mapSize = 512;     ///< texels a side
+    int mapSize = 512;  ///< texels a side; of fits with several maps, as many in all as one of it
+    FitSettings settings = {};
 };
 
 /// One map's light camera.
 struct FittedMap {
     /// Clip space of the map from world. Depth reversed: 1 at the near side. Casters nearer to the
-    /// light than that are clamped when the map is drawn. Finite always.
+    /// light than that are clamped when the map is drawn. w >= 1 for parallel light, > 0 for
+    /// others, wherever the map is looked up. Finite always.
     math::dmat4 clipFromWorld{1.0};
 };
 
 struct Fitted {
     std::vector<FittedMap> maps = {};  ///< none: no visible receiver, no shadow to compute
+    int mapSize = 0;                   ///< texels a side of each map; 0: as in the input
     bool degenerate = false;           ///< the plain fit was used instead
 };
 
@@ -70,9 +88,5 @@ Result<TechniqueName> parseTechnique(std::string_view text,
 /// Two unit vectors that with @p axis (unit) make a right-handed orthonormal base.
 /// Source: Tom Duff et al. Building an Orthonormal Basis, Revisited. 2017.
 std::pair<math::dvec3, math::dvec3> perpendicular(const math::dvec3& axis) noexcept;
-
-/// What the light can reach of what is seen: corners of (view volume, cut by the scene's bounds and
-/// by a spot's frustum), over all views. Empty: nothing to shadow.
-std::vector<math::dvec3> receiverPoints(const FitInput& input);
 
 }  // namespace gnomon::shadow_fit

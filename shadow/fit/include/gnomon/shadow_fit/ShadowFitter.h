@@ -1,8 +1,8 @@
 #pragma once
 
-#include <gnomon/scene/FlatScene.h>
 #include <gnomon/scene/ShadowState.h>
 #include <gnomon/scene/Window.h>
+#include <gnomon/shadow_fit/ClusterTree.h>
 #include <gnomon/shadow_fit/Fit.h>
 
 #include <cstdint>
@@ -14,9 +14,6 @@
 #include <vector>
 
 namespace gnomon::shadow_fit {
-
-/// Texels a side of a page: what a shadow map is drawn, kept and skipped by.
-inline constexpr int pageTexels = 1024;
 
 /// Keeps one ShadowState per light and fit group in the session's aspect: the one place where light
 /// cameras are chosen, so that every tile and eye looks up the same maps.
@@ -36,6 +33,7 @@ public:
 
 private:
     struct Group;
+    struct Scene;
     void findWindows(const field::Aspect& session, const field::Applied& applied);
     void collectGroups(const field::Aspect& session, std::vector<Group>& groups) const;
     void fit(field::Aspect& session, const Group& group);
@@ -54,7 +52,8 @@ private:
     std::function<void(std::string)> warn_;
     std::set<field::Id> windows_;
     std::map<Key, Held> states_;
-    std::map<field::Id, std::unique_ptr<scene::FlatScene>> scenes_;  ///< by root
+    std::map<field::Id, std::unique_ptr<Scene>> scenes_;  ///< by root
+    Receivers receivers_;
     std::vector<std::string> warned_;
     std::uint64_t round_ = 0;
 };

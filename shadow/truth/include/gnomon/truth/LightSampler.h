@@ -36,9 +36,9 @@ private:
     double cosineOfCone_ = -1.0;
 };
 
-/// The i-th of a pixel's points in [0, 1)^2: the first two dimensions of Sobol's sequence, scrambled
-/// by the pixel. Any power of two of them from 0 on is stratified in every elementary interval.
-/// Source: Ilya Sobol. 1967; scrambling: Thomas Kollig, Alexander Keller. Efficient
+/// The i-th of a pixel's points in [0, 1)^2: the first two dimensions of Sobol's sequence,
+/// scrambled by the pixel. Any power of two of them from 0 on is stratified in every elementary
+/// interval. Source: Ilya Sobol. 1967; scrambling: Thomas Kollig, Alexander Keller. Efficient
 /// Multidimensional Sampling. 2002.
 math::dvec2 stratified(std::uint32_t i, std::uint32_t pixel) noexcept;
 

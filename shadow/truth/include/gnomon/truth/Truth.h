@@ -25,10 +25,10 @@ struct Truth {
     /// One channel: 255 lit, 0 shadowed or outside a spot's cone; 128 where there is no surface or
     /// it faces away (leastCosine). A factor that rounds to 128 is written 127.
     image::Image factor = {};
-    std::uint64_t counted = 0;    ///< pixels that are not 128
-    std::uint64_t penumbra = 0;   ///< of them, those with a factor between 0 and 1
-    double rootMeanWidth = 0.0;   ///< of the 95 % intervals' half widths over counted pixels
-    double largestWidth = 0.0;    ///< the largest of them
+    std::uint64_t counted = 0;   ///< pixels that are not 128
+    std::uint64_t penumbra = 0;  ///< of them, those with a factor between 0 and 1
+    double rootMeanWidth = 0.0;  ///< of the 95 % intervals' half widths over counted pixels
+    double largestWidth = 0.0;   ///< the largest of them
 };
 
 /// One ray a pixel centre, and from there rays to the light. With more samples than one the

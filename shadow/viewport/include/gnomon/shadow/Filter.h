@@ -9,11 +9,12 @@ namespace gnomon::shadow {
 struct FilterInfo {
     std::string_view name = {};    ///< the word in configs and on the command line
     std::string_view source = {};  ///< authors, title, year
-    /// Defines `float filteredShadow(uint map, vec3 q)`: q.xy in [0,1]^2 of the map, q.z its
-    /// reversed depth, already offset; 1 lit, 0 shadowed. May call `float pageCompare(uint map,
-    /// vec2 texel, float depth)`, the bilinear comparison at a position in texels.
+    /// Defines `float filteredShadow(uint map, ShadowPoint point)`: 1 lit, 0 shadowed. The point's
+    /// place is in texels of the map, its slope in depth a texel. May call `float
+    /// pageCompare(uint map, vec2 texel, float depth, vec2 slope)`, the comparison at a position in
+    /// texels interpolated between the four nearest.
     std::string_view glsl = {};
-    /// Reach of the filter around the looked-up point, texels: what the depth offset allows for.
+    /// Reach of the filter around the looked-up point, texels, each way: what must be drawn.
     float radiusTexels = 1.0F;
 };
 
@@ -22,8 +23,11 @@ std::span<const FilterInfo> filters();
 /// nullptr where there is none of that name.
 const FilterInfo* findFilter(std::string_view name) noexcept;
 
-/// GLSL that declares the maps, pages and `shadowFactor()`, to stand before the filter's. Binding
-/// points are those of ShadowMaps.
+/// GLSL of the maps' uniform block, for vertex and fragment shaders. Binding points are those of
+/// ShadowMaps. Lights' maps stand one after the other, MAPS_PER_LIGHT of each.
+std::string_view mapsGlsl() noexcept;
+/// GLSL that declares pages and `shadowFactor()`, to stand after mapsGlsl() and before the
+/// filter's.
 std::string_view lookupGlsl() noexcept;
 
 }  // namespace gnomon::shadow

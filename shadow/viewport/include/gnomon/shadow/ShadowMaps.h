@@ -4,7 +4,6 @@
 #include <gnomon/math/View.h>
 #include <gnomon/scene/ShadowState.h>
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -21,11 +20,21 @@ public:
         std::uint64_t triangles = 0;
         std::uint64_t chunks = 0;
     };
+    struct Pass {
+        math::mat4 clipFromOrigin{1.0F};  ///< of the page, relative to the group's origin
+        /// What casts is not outside any of these; inner sides, world.
+        std::span<const math::Plane> volume = {};
+    };
     /// Draws the depth of every caster that may touch the volume into the bound framebuffer.
-    /// @param clipFromOrigin  of the page, relative to the group's origin
-    /// @param sidesWorld      left, right, bottom, top of the page's volume, inner sides
-    virtual Drawn drawCasters(const math::mat4& clipFromOrigin,
-                              std::span<const math::Plane> sidesWorld) = 0;
+    virtual Drawn drawCasters(const Pass& pass) = 0;
+};
+
+/// How far casters are pushed away from the light, as glPolygonOffset takes it (negated: depth is
+/// reversed). The lookup needs none: for those who have set it by hand.
+struct DepthOffset {
+    float factor = 0.0F;  ///< times the depth a texel's width of the caster spans
+    float units = 0.0F;   ///< of depth resolution
+    friend bool operator==(const DepthOffset&, const DepthOffset&) = default;
 };
 
 struct ShadowStatistics {
@@ -42,7 +51,8 @@ struct ShadowStatistics {
 ///
 /// A page is a fixed square part of a map, with a border of one texel, drawn with its own viewport
 /// and its own decorated projection: the same bits wherever it is drawn. It is drawn when a view
-/// looks it up and its fit or what casts into it has changed since.
+/// looks it up and its fit or what casts into it has changed since; and then only with casters that
+/// can reach what the view sees.
 class ShadowMaps {
 public:
     static constexpr int maxMaps = 128;  ///< a frame and viewport
@@ -58,18 +68,22 @@ public:
     void invalidate(std::span<const math::Box> movedWorld);
     void invalidateAll();
 
+    struct View {
+        std::span<const math::dvec3> seen = {};  ///< what is seen lies in their convex hull
+        const DepthOffset* offset = nullptr;     ///< nullptr: none
+    };
     /// Draws what is missing for one viewport.
     /// @param states   of the viewport's fit group; all of one page size
-    /// @param view     what the viewport shows (its tile)
-    /// @param bounds   of the scene
-    /// Leaves its own framebuffer bound.
-    ShadowStatistics prepare(std::span<const scene::ShadowState* const> states,
-                             const math::View& view, const math::Box& bounds,
+    /// Leaves its own framebuffer bound where it drew anything.
+    ShadowStatistics prepare(std::span<const scene::ShadowState* const> states, const View& view,
                              CasterSource& casters);
     /// How the lookup's text has to be specialised.
     struct Arranged {
-        int mapsPerLight = 0;  ///< MAPS_PER_LIGHT; 0 where no light has a map
-        bool paged = false;    ///< PAGED_MAPS: some map has more than one page
+        int mapsPerLight = 0;      ///< MAPS_PER_LIGHT; 0 where no light has a map
+        int lights = 0;            ///< the first so many lights have a place in the block
+        bool paged = false;        ///< PAGED_MAPS: some map has more than one page
+        bool perspective = false;  ///< PERSPECTIVE_MAPS: some map has a w that is not 1
+        friend bool operator==(const Arranged&, const Arranged&) = default;
     };
     /// Puts the maps in the order of the lights that are shaded and binds maps, table and pages for
     /// the lookup. After prepare().
@@ -86,24 +100,20 @@ private:
         std::uint32_t page = 0;
         friend auto operator<=>(const PageKey&, const PageKey&) = default;
     };
-    struct Page {
-        Pool* pool = nullptr;
-        int layer = -1;
-        math::dmat4 clipFromWorld{0.0};  ///< of the map, when drawn
-        math::dvec3 origin{0.0};
-        std::array<math::Plane, 4> sides = {};
-        bool valid = false;
-        std::uint64_t used = 0;
-    };
+    struct Page;
     struct MapBlock;
+    struct Frame;  // what prepare() works with
 
+    void prepareMap(const scene::ShadowState& state, std::uint32_t map, Frame& frame);
+    void drawPage(Page& page, Frame& frame, const math::dmat4& decorate,
+                  const math::dmat4& clipFromWorld, const scene::ShadowState& state);
     void release(Page& page) noexcept;
     void dropOld();
     Pool& pool(int pageSize);
 
     const gl::Api& gl_;
     std::map<int, std::unique_ptr<Pool>> pools_;
-    std::map<PageKey, Page> pages_;
+    std::map<PageKey, std::unique_ptr<Page>> pages_;
     struct Range {
         std::uint32_t first = 0, count = 0;
     };
@@ -111,7 +121,7 @@ private:
     gl::Buffer mapsBuffer_;
     gl::Buffer tableBuffer_;
     gl::Framebuffer framebuffer_;
-    gl::Sampler compare_;
+    gl::Sampler sampler_;
     std::vector<MapBlock> blocks_;
     std::vector<MapBlock> arranged_;
     std::vector<std::uint32_t> table_;

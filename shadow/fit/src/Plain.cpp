@@ -1,0 +1,46 @@
+#include "Plain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gnomon::shadow_fit {
+
+using math::dvec3;
+
+Ground::Ground(const FitInput& input)
+    : plane{input.light},
+      outline{outlineOf(plane, input.light, input.receivers.points())},
+      depth{plane.depthOf(input.receivers.points(), input.scene)},
+      uniform{uniformMap(outline.hull, input.mapSize)} {}
+
+Fitted plainFit(const FitInput& input) {
+    if (input.receivers.empty()) return {};
+    const Ground ground{input};
+    return {.maps = {{.clipFromWorld = ground.clipFromWorld(ground.uniform)}}};
+}
+
+std::optional<Viewer> viewerOf(const FitInput& input) {
+    Viewer viewer{.forward = dvec3{0.0}};
+    double views = 0.0;
+    for (const math::View& view : input.views) {
+        if (!math::isFinite(view.clipFromWorld())) continue;
+        viewer.eye += view.eyeWorld();
+        viewer.forward -= dvec3{glm::transpose(view.eyeFromWorld)[2]};
+        views += 1.0;
+    }
+    const double length = glm::length(viewer.forward);
+    if (!(views > 0.0) || !(length > 1e-6 * views)) return {};
+    viewer.eye /= views;
+    viewer.forward /= length;
+    viewer.nearest = std::numeric_limits<double>::infinity();
+    viewer.farthest = -viewer.nearest;
+    for (const dvec3& p : input.receivers.points()) {
+        viewer.nearest = std::min(viewer.nearest, viewer.depthOf(p));
+        viewer.farthest = std::max(viewer.farthest, viewer.depthOf(p));
+    }
+    if (!(viewer.nearest > 0.0) || !std::isfinite(viewer.farthest)) return {};
+    return viewer;
+}
+
+}  // namespace gnomon::shadow_fit
