@@ -14,7 +14,7 @@ TEST(Filters, EachSaysWhereItIsFromAndDefinesTheLookup) {
         EXPECT_LT(before, info.name) << "sorted, and each name once";
         before = info.name;
         EXPECT_FALSE(info.source.empty()) << info.name;
-        EXPECT_NE(info.glsl.find("float filteredShadow(uint map, ShadowPoint point)"),
+        EXPECT_NE(info.glsl.find("float filteredShadow(int first, ShadowPoint point)"),
                   std::string_view::npos);
         EXPECT_GE(info.radiusTexels, 0.5F);
         EXPECT_EQ(findFilter(info.name)->glsl, info.glsl);

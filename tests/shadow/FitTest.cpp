@@ -48,7 +48,7 @@ struct Situation {
         math::BoxTree tree;
         tree.build({scene});
         const auto seen = receivers(tree);
-        const auto samples = samplePicture(views, tree, 12);
+        const auto samples = samplePicture(views, {.tree = tree}, 12);
         return info.fit({.light = light,
                          .views = views,
                          .receivers = seen,

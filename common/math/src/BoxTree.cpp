@@ -1,6 +1,7 @@
 #include <gnomon/math/BoxTree.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace gnomon::math {
@@ -21,21 +22,45 @@ void BoxTree::build(std::vector<Box> boxes) {
     rebuild();
 }
 
-double BoxTree::reached(const Box& box, const dvec3& from, const dvec3& direction) noexcept {
-    constexpr double never = std::numeric_limits<double>::infinity();
-    double first = 0.0;
-    double last = never;
+bool BoxTree::any(std::span<const Plane> planes) const noexcept {
+    if (nodes_.empty()) return false;
+    std::uint32_t open[64];
+    std::size_t count = 0;
+    open[count++] = 0;
+    while (count > 0) {
+        const std::uint32_t index = open[--count];
+        const Node& node = nodes_[index];
+        std::uint32_t left = planes.size() >= 32 ? ~0U : (1U << planes.size()) - 1U;
+        if (!cut(node.box, planes, left)) continue;
+        if (left == 0) return true;
+        if (node.count == 0) {
+            open[count++] = node.second;
+            open[count++] = index + 1;
+            continue;
+        }
+        for (std::uint32_t i = 0; i < node.count; ++i) {
+            left = planes.size() >= 32 ? ~0U : (1U << planes.size()) - 1U;
+            if (cut(boxes_[order_[node.first + i]], planes, left)) return true;
+        }
+    }
+    return false;
+}
+
+bool BoxTree::passes(const Box& box, const dvec3& from, const dvec3& direction, double& entry,
+                     double& exit) noexcept {
+    entry = 0.0;
+    exit = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
         if (direction[axis] == 0.0) {
-            if (!(from[axis] >= box.min[axis] && from[axis] <= box.max[axis])) return never;
+            if (!(from[axis] >= box.min[axis] && from[axis] <= box.max[axis])) return false;
             continue;
         }
         const double a = (box.min[axis] - from[axis]) / direction[axis];
         const double b = (box.max[axis] - from[axis]) / direction[axis];
-        first = std::max(first, std::min(a, b));
-        last = std::min(last, std::max(a, b));
+        entry = std::max(entry, std::min(a, b));
+        exit = std::min(exit, std::max(a, b));
     }
-    return first <= last ? first : never;
+    return entry <= exit;
 }
 
 void BoxTree::rebuild() {

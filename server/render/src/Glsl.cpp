@@ -305,7 +305,7 @@ void main() {
 #define FOUND(i) 0
 #endif
 #if SHADOW_PLACES > 0
-#define INTERPOLATED(i) interpolatedPoint(placeOf(i))
+#define INTERPOLATED(i) interpolatedPoint((i) * MAPS_PER_LIGHT, placeOf(i))
 #else
 #define INTERPOLATED(i) 0
 #endif
@@ -364,7 +364,7 @@ void main() {
     lightReaching(0, vPosition, toLight);
     float lit = dot(face, toLight) > 0.0 && shinesAt(0, vPosition) ? 1.0 : 0.0;
 #if SHADOW_PLACES > 0
-    ShadowPoint point = interpolatedPoint(placeOf(0));
+    ShadowPoint point = interpolatedPoint(0, placeOf(0));
     if (lit > 0.0 && lights[0].maps.y > 0u) lit = shadowFactor(0, point);
 #endif
     // 128 means that there is no surface.

@@ -30,6 +30,14 @@ public:
     /// How places move with a world vector, at a world point.
     math::dvec2 moved(const math::dvec3& at, const math::dvec3& by) const noexcept;
 
+    /// The world plane of a line a x + b y + c w = 0, inside where that is positive.
+    math::Plane through(const math::dvec3& line) const noexcept {
+        const math::dvec4 p = x_ * line.x + y_ * line.y + w_ * line.z;
+        const double length = glm::length(math::dvec3{p});
+        return length > 0.0 ? math::Plane{math::dvec3{p} / length, p.w / length}
+                            : math::Plane{math::dvec3{0.0}, 0.0};
+    }
+
     /// Distances along the axis that a map has to tell apart: from the farthest receiver to the
     /// nearest caster.
     struct Depth {

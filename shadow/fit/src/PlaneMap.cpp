@@ -123,12 +123,12 @@ dmat3 warpedMap(std::span<const dvec2> hull, const Warp& warp, int mapSize) {
 }
 
 double expectedError(const LightPlane& plane, const dmat3& m, int mapSize,
-                     std::span<const dvec3> samples) {
+                     std::span<const Sample> samples) {
     double sum = 0.0;
-    std::size_t count = 0;
+    double weights = 0.0;
     const double texel = 2.0 / mapSize;  // in map units
-    for (const dvec3& sample : samples) {
-        const dvec3 h = plane.at(sample);
+    for (const Sample& sample : samples) {
+        const dvec3 h = plane.at(sample.world);
         if (!(h.z > 0.0)) continue;
         const dvec2 p = dvec2{h} / h.z;
         const dvec3 q = m * dvec3{p, 1.0};
@@ -143,10 +143,10 @@ double expectedError(const LightPlane& plane, const dmat3& m, int mapSize,
         // Sides of a texel on the plane: columns of the inverse.
         const double side =
             texel * 0.5 * (glm::length(dvec2{dy.y, dx.y}) + glm::length(dvec2{dy.x, dx.x})) / area;
-        sum += side * h.z;
-        ++count;
+        sum += side * h.z * sample.weight;
+        weights += sample.weight;
     }
-    return count > 0 ? sum / static_cast<double>(count) : 0.0;
+    return weights > 0.0 ? sum / weights : 0.0;
 }
 
 }  // namespace gnomon::shadow_fit

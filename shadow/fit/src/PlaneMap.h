@@ -35,9 +35,9 @@ struct Extent {
 Extent extentAlong(std::span<const math::dvec2> hull, const math::dvec2& along) noexcept;
 
 /// What a map is expected to get wrong: the mean side of a texel, in metres across the light, over
-/// equal shares of the picture. The length of shadow edges in a share of the picture times their
-/// displacement is the share that is wrong, whatever its distance.
+/// equal shares of the picture by their weight. The length of shadow edges in a share of the
+/// picture times their displacement is the share that is wrong, whatever its distance.
 double expectedError(const LightPlane& plane, const math::dmat3& mapFromPlane, int mapSize,
-                     std::span<const math::dvec3> samples);
+                     std::span<const Sample> samples);
 
 }  // namespace gnomon::shadow_fit

@@ -47,30 +47,22 @@ Volume volumeOf(const math::View& view, const LightShape* light) {
     return volume;
 }
 
-/// Where a ray enters a box, in lengths of its direction; infinite where it does not, or begins
-/// inside.
-double entry(const math::Box& box, const dvec3& from, const dvec3& direction) {
-    double first = -std::numeric_limits<double>::infinity();
-    double last = std::numeric_limits<double>::infinity();
-    for (int axis = 0; axis < 3; ++axis) {
-        if (direction[axis] == 0.0) {
-            if (from[axis] < box.min[axis] || from[axis] > box.max[axis])
-                return std::numeric_limits<double>::infinity();
-            continue;
-        }
-        const double a = (box.min[axis] - from[axis]) / direction[axis];
-        const double b = (box.max[axis] - from[axis]) / direction[axis];
-        first = std::max(first, std::min(a, b));
-        last = std::min(last, std::max(a, b));
-    }
-    return first <= last && first > 0.0 ? first : std::numeric_limits<double>::infinity();
-}
-
 }  // namespace
 
 void Receivers::clear() noexcept {
     points_.clear();
-    ends_.clear();
+    pieces_.clear();
+}
+
+void Receivers::addPiece(std::span<const dvec3> points, int flat) {
+    Piece piece{.first = static_cast<std::uint32_t>(points_.size()), .flat = flat};
+    for (const dvec3& p : points) {
+        const auto same = [&](const dvec3& q) { return p == q; };
+        if (isFinite(p) && std::none_of(points_.begin() + piece.first, points_.end(), same))
+            points_.push_back(p);
+    }
+    piece.count = static_cast<std::uint32_t>(points_.size()) - piece.first;
+    if (piece.count > 0) pieces_.push_back(piece);
 }
 
 void Receivers::add(const math::View& view, const LightShape* light, const math::BoxTree& boxes) {
@@ -83,44 +75,18 @@ void Receivers::add(const math::View& view, const LightShape* light, const math:
         return glm::length(box.size()) < 0.01 * glm::length(nearest - eye);
     };
     boxes.cover(volume.all(), small, [&](const math::Box& box, bool inside) {
-        const std::size_t before = points_.size();
+        const dvec3 size = box.size();
+        const int flat = size.x == 0.0 ? 0 : size.y == 0.0 ? 1 : size.z == 0.0 ? 2 : -1;
         if (inside) {
-            for (int i = 0; i < 8; ++i) points_.push_back(box.corner(i));
-        } else {
-            body_.assign(box);
-            for (const Plane& plane : volume.all()) body_.clip(plane);
-            for (const dvec3& p : body_.points())
-                if (isFinite(p)) points_.push_back(p);
+            std::array<dvec3, 8> corners;
+            for (int i = 0; i < 8; ++i) corners[static_cast<std::size_t>(i)] = box.corner(i);
+            addPiece(corners, flat);
+            return;
         }
-        if (points_.size() > before) ends_.push_back(static_cast<std::uint32_t>(points_.size()));
+        body_.assign(box);
+        for (const Plane& plane : volume.all()) body_.clip(plane);
+        addPiece(body_.points(), flat);
     });
-}
-
-std::vector<dvec3> samplePicture(std::span<const math::View> views, const math::BoxTree& boxes,
-                                 int perSide) {
-    std::vector<dvec3> samples;
-    for (const math::View& view : views) {
-        if (!math::isFinite(view.clipFromWorld())) continue;
-        const math::dmat4 worldFromClip = glm::inverse(view.clipFromWorld());
-        const auto unproject = [&](double x, double y, double z) {
-            const math::dvec4 p = worldFromClip * math::dvec4{x, y, z, 1.0};
-            return dvec3{p} / p.w;
-        };
-        for (int row = 0; row < perSide; ++row) {
-            for (int column = 0; column < perSide; ++column) {
-                const double x = (column + 0.5) / perSide * 2.0 - 1.0;
-                const double y = (row + 0.5) / perSide * 2.0 - 1.0;
-                const dvec3 from = unproject(x, y, 1.0);
-                const dvec3 direction = unproject(x, y, 0.0) - from;
-                const double t = boxes.firstAlong(from, direction, [&](const math::Box& box) {
-                    return entry(box, from, direction);
-                });
-                const dvec3 at = from + direction * t;
-                if (t <= 1.0 && isFinite(at)) samples.push_back(at);
-            }
-        }
-    }
-    return samples;
 }
 
 }  // namespace gnomon::shadow_fit

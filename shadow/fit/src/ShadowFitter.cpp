@@ -134,7 +134,7 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group) {
 
     const Scene& seen = *scenes_.at(group.viewport->root->id);
     const scene::FlatScene& flat = seen.flat;
-    const auto samples = samplePicture(group.views, seen.clusters.boxes(), samplesPerSide);
+    auto samples = samplePicture(group.views, seen.clusters.boxes(), samplesPerSide);
     math::dvec3 eye{0.0};
     for (const math::View& view : group.views)
         eye += view.eyeWorld() / static_cast<double>(group.views.size());
@@ -166,14 +166,18 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group) {
         }
         receivers_.clear();
         for (const math::View& view : group.views)
-            receivers_.add(view, &light, seen.clusters.boxes());
-        Fitted fitted = info.fit({.light = light,
-                                  .views = group.views,
-                                  .receivers = receivers_,
-                                  .samples = samples,
-                                  .scene = flat.bounds(),
-                                  .mapSize = rounded,
-                                  .settings = {.range = group.viewport->range}});
+            receivers_.add(view, &light, seen.clusters.boxes().tree);
+        shadowed_ = receivers_;
+        shadowed_.dropUnshadowed(light, seen.clusters.boxes().tree);
+        weigh(samples, light, seen.clusters.boxes());
+        Fitted fitted =
+            info.fit({.light = light,
+                      .views = group.views,
+                      .receivers = info.shadowedOnly || shadowed_.empty() ? shadowed_ : receivers_,
+                      .samples = samples,
+                      .scene = flat.bounds(),
+                      .mapSize = rounded,
+                      .settings = {.range = group.viewport->range}});
         std::vector<math::dmat4> maps;
         for (const FittedMap& map : fitted.maps) {
             if (!math::isFinite(map.clipFromWorld)) {

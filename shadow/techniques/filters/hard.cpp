@@ -8,9 +8,7 @@ FilterInfo describe_hard() {
     return {.name = "hard",
             .source = "Reeves, Salesin, Cook 1987",
             .glsl = R"glsl(
-float filteredShadow(uint map, ShadowPoint point) {
-    return pageCompare(map, point.place.xy, point.place.z, point.slope);
-}
+float filteredShadow(int first, ShadowPoint point) { return pageCompare(first, point); }
 )glsl",
             .radiusTexels = 1.0F};
 }

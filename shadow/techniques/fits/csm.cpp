@@ -31,7 +31,7 @@ constexpr double sizesAnOctave = 8;  ///< steps of a map's sides
 /// A thin slice of the view's depth.
 struct Slice {
     std::vector<dvec2> hull = {};  ///< of the receivers in it, on the light's plane
-    double samples = 0.0;          ///< how much of the picture it is
+    double samples = 0.0;          ///< their weight
 };
 
 /// Depths where slices end: evenly in the logarithm, where pixels grow with depth.
@@ -86,9 +86,9 @@ std::vector<Slice> slicesOf(const FitInput& input, const LightPlane& plane, cons
         }
     }
     for (Slice& slice : made) slice.hull = convexHull(std::move(slice.hull));
-    for (const dvec3& sample : input.samples) {
-        const double depth = viewer.depthOf(sample);
-        if (depth > 0.0) made[sliceOf(bounds, depth)].samples += 1.0;
+    for (const Sample& sample : input.samples) {
+        const double depth = viewer.depthOf(sample.world);
+        if (depth > 0.0) made[sliceOf(bounds, depth)].samples += sample.weight;
     }
     return made;
 }

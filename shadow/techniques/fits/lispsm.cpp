@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../../fit/src/Plain.h"
+#include "../../fit/src/BestWarp.h"
 
 namespace gnomon::shadow_fit {
 namespace {
@@ -32,12 +32,8 @@ Fitted fit(const FitInput& input) {
     const dvec2 along = glm::normalize(shift);
     // n = d / (sqrt(z1 / z0) - 1) for an extent d of the outline, that is seen from z0 to z1.
     const double strength = std::sqrt(viewer->farthest / viewer->nearest) - 1.0;
-    const dvec3 ahead = ground.plane.at(viewer->eye + viewer->forward * viewer->nearest);
-    const double beside =
-        ahead.z > 0.0 ? glm::dot(dvec2{ahead} / ahead.z, dvec2{along.y, -along.x}) : 0.0;
     const auto warped =
-        warpedMap(ground.outline.hull, {.along = along, .strength = strength, .beside = beside},
-                  input.mapSize);
+        bestWarp(ground, {.along = along, .strength = strength}, input.mapSize, input.samples);
     const auto expected = [&](const math::dmat3& map) {
         return expectedError(ground.plane, map, input.mapSize, input.samples);
     };
@@ -49,7 +45,10 @@ Fitted fit(const FitInput& input) {
 }  // namespace
 
 FitInfo describe_lispsm() {
-    return {.name = "lispsm", .source = "Wimmer, Scherzer, Purgathofer 2004", .fit = fit};
+    return {.name = "lispsm",
+            .source = "Wimmer, Scherzer, Purgathofer 2004",
+            .fit = fit,
+            .shadowedOnly = true};
 }
 
 }  // namespace gnomon::shadow_fit

@@ -115,7 +115,10 @@ Fitted fit(const FitInput& input) {
 }  // namespace
 
 FitInfo describe_psm() {
-    return {.name = "psm", .source = "Stamminger, Drettakis 2002; Kozlov 2004", .fit = fit};
+    return {.name = "psm",
+            .source = "Stamminger, Drettakis 2002; Kozlov 2004",
+            .fit = fit,
+            .shadowedOnly = true};
 }
 
 }  // namespace gnomon::shadow_fit

@@ -96,7 +96,10 @@ Fitted fit(const FitInput& input) {
 }  // namespace
 
 FitInfo describe_trapez() {
-    return {.name = "trapez", .source = "Martin, Tan 2004; Hempe 2005", .fit = fit};
+    return {.name = "trapez",
+            .source = "Martin, Tan 2004; Hempe 2005",
+            .fit = fit,
+            .shadowedOnly = true};
 }
 
 }  // namespace gnomon::shadow_fit

@@ -7,7 +7,8 @@ std::string_view mapsGlsl() noexcept {
 struct ShadowMap {
     mat4 mapFromOrigin;  // x and y in texels, z reversed depth, all times w
     vec4 fromFirst;      // texels of this map from those of the light's first: scale, offset
-    vec4 size;           // x: texels a side, y: of a page, z: 1 / (page with its border)
+    vec4 size;           // texels a side x: of the map, y: of a page; z: 1 / (page with its border),
+                         // w: 1 / map
     uvec4 pages;         // x: pages a side, y: first entry of the table, z: the layer where x is 1
 };
 layout(std140, binding = 4) uniform ShadowMapBlock { ShadowMap shadowMaps[128]; };
@@ -35,11 +36,12 @@ const uint pageMissing = 0xffffffffu;
 const float slackTexels = 0.1;
 const float slackDepth = 2e-6;
 
-// A receiver in a light's first map: place in texels and depth, and how much depth a texel spans on
-// its plane, to the right and up.
+// A receiver in one of a light's maps: place in texels and depth, how much depth a texel spans on
+// its plane, to the right and up, and which map that is: its layer, or its first entry in the table.
 struct ShadowPoint {
     vec3 place;
     vec2 slope;
+    uint pages;
 };
 
 // The plane through two steps on it.
@@ -52,20 +54,28 @@ vec2 slopeOf(vec3 a, vec3 b) {
 
 vec3 projectedPlace(vec4 place) {
 #ifdef PERSPECTIVE_MAPS
-    // Behind a spot nothing is lit by it; any answer will do that is no NaN.
-    return place.xyz / max(place.w, 1e-6);
+    // Behind a spot, or before the vanishing point of a warp, where nothing is shadowed.
+    return place.w > 1e-6 ? place.xyz / place.w : vec3(-1e6, -1e6, 1.0);
 #else
     return place.xyz;
 #endif
 }
 
-// From an interpolated shadowPlace(). In uniform control flow.
-ShadowPoint interpolatedPoint(vec4 place) {
-    vec3 q = projectedPlace(place);
-    return ShadowPoint(q, slopeOf(dFdx(q), dFdy(q)));
+uint pagesOf(int map) {
+#ifdef PAGED_MAPS
+    return shadowMaps[map].pages.y;
+#else
+    return shadowMaps[map].pages.z;
+#endif
 }
 
-// From a surface. @param normal  unit, of the surface's plane
+// In a light's first map, from an interpolated shadowPlace(). In uniform control flow.
+ShadowPoint interpolatedPoint(int first, vec4 place) {
+    vec3 q = projectedPlace(place);
+    return ShadowPoint(q, slopeOf(dFdx(q), dFdy(q)), pagesOf(first));
+}
+
+// In a light's first map, from a surface. @param normal  unit, of the surface's plane
 ShadowPoint foundPoint(int first, vec3 position, vec3 normal) {
     mat4 m = shadowMaps[first].mapFromOrigin;
     vec4 place = m * vec4(position, 1.0);
@@ -76,38 +86,40 @@ ShadowPoint foundPoint(int first, vec3 position, vec3 normal) {
     float b = normal.x * normal.y * a;
     vec4 u = m * vec4(1.0 + s * normal.x * normal.x * a, s * b, -s * normal.x, 0.0);
     vec4 v = m * vec4(b, s + normal.y * normal.y * a, -normal.y, 0.0);
-    return ShadowPoint(q, slopeOf(u.xyz - q * u.w, v.xyz - q * v.w));
+    return ShadowPoint(q, slopeOf(u.xyz - q * u.w, v.xyz - q * v.w), pagesOf(first));
 }
 
-// Comparison at a position in texels of the map, interpolated between the four nearest texels. Lit
-// beyond the map, and where nothing was drawn: there the depth is as far away as can be.
-//   slope  of the receiver, depth a texel of this map
-float pageCompare(uint map, vec2 texel, float depth, vec2 slope) {
-    vec2 corner = floor(texel - 0.5);
-    vec2 share = texel - 0.5 - corner;
+// Comparison at a place in a map, interpolated between the four nearest texels. Lit beyond the map,
+// and where nothing was drawn: there the depth is as far away as can be.
+//   first  any map of the light: all its maps are of one size
+float pageCompare(int first, ShadowPoint point) {
+    vec2 corner = floor(point.place.xy - 0.5);
+    vec2 share = point.place.xy - 0.5 - corner;
 #ifdef PAGED_MAPS
-    float pageSize = shadowMaps[map].size.y;
-    uint side = shadowMaps[map].pages.x;
-    uvec2 page = uvec2(clamp(texel / pageSize, vec2(0.0), vec2(float(side) - 1.0)));
-    uint entry = shadowMaps[map].pages.y + page.y * side + page.x;
+    float pageSize = shadowMaps[first].size.y;
+    uint side = shadowMaps[first].pages.x;
+    uvec2 page = uvec2(clamp(point.place.xy / pageSize, vec2(0.0), vec2(float(side) - 1.0)));
+    uint entry = point.pages + page.y * side + page.x;
     uint layer = pageTable[entry >> 2u][entry & 3u];
     if (layer == pageMissing) return 1.0;
     corner -= vec2(page) * pageSize;
 #else
-    uint layer = shadowMaps[map].pages.z;
+    uint layer = point.pages;
 #endif
     // Between the four: one texel of border, one to their common corner.
     vec4 casters = textureGather(
-        shadowPages, vec3((corner + 2.0) * shadowMaps[map].size.z, float(layer)));
+        shadowPages, vec3((corner + 2.0) * shadowMaps[first].size.z, float(layer)));
+    vec2 slope = point.slope;
     float slack = (abs(slope.x) + abs(slope.y)) * slackTexels + slackDepth;
-    float here = depth - dot(slope, share) + slack;
+    float here = point.place.z - dot(slope, share) + slack;
     vec4 plane = vec4(here + slope.y, here + slope.x + slope.y, here + slope.x, here);
-    vec4 lit = vec4(greaterThanEqual(plane, casters));
+    // A receiver beyond the map is never darker than what was not drawn.
+    vec4 lit = vec4(greaterThanEqual(max(plane, 0.0), casters));
     vec2 row = mix(lit.wx, lit.zy, share.x);
     return mix(row.x, row.y, share.y);
 }
 
-float filteredShadow(uint map, ShadowPoint point);
+float filteredShadow(int first, ShadowPoint point);
 
 // Beyond this share of a map's side from its middle the next map is blended in.
 const float blendFrom = 0.46;
@@ -115,27 +127,42 @@ const float blendFrom = 0.46;
 // How much of a light reaches a place: 1 all, 0 nothing. Outside its maps it is lit.
 //   first  the light's first map: MAPS_PER_LIGHT times its index. A constant where the call is
 //          unrolled, so that the map's data is read once for all pixels, not for each.
+//   point  in the light's first map
 float shadowFactor(int first, ShadowPoint point) {
 #if MAPS_PER_LIGHT > 1
-    // The first map that holds the place decides, mixed with the next one toward its border.
+    // The first map that holds the place decides, mixed with the next one toward its border. Which
+    // that is costs no lookup; there is a second one only where some pixel nearby needs it.
     float factor = 1.0;
     float last = 1.0;
     float open = 1.0;
-    for (int k = 0; k < MAPS_PER_LIGHT && open > 0.0; ++k) {
-        uint map = uint(first + k);
-        vec4 fromFirst = shadowMaps[map].fromFirst;
-        vec2 at = point.place.xy * fromFirst.xy + fromFirst.zw;
-        vec2 off = abs(at / max(shadowMaps[map].size.x, 1.0) - 0.5);
-        float inside = 0.5 - max(off.x, off.y);
-        if (inside < 0.0) continue;
-        float share = min(inside / (0.5 - blendFrom), 1.0);
-        last = filteredShadow(map, ShadowPoint(vec3(at, point.place.z), point.slope / fromFirst.xy));
+    int next = 0;
+    for (int turn = 0; turn < 2; ++turn) {
+        ShadowPoint here = point;
+        float share = 0.0;
+        int chosen = MAPS_PER_LIGHT;
+        for (int k = MAPS_PER_LIGHT - 1; k >= 0; --k) {
+            int map = first + k;
+            vec4 fromFirst = shadowMaps[map].fromFirst;
+            vec2 at = point.place.xy * fromFirst.xy + fromFirst.zw;
+            vec2 off = abs(at * shadowMaps[map].size.w - 0.5);
+            float inside = 0.5 - max(off.x, off.y);
+            if (inside >= 0.0 && k >= next) {
+                here = ShadowPoint(vec3(at, point.place.z), point.slope / fromFirst.xy,
+                                   pagesOf(map));
+                share = min(inside / (0.5 - blendFrom), 1.0);
+                chosen = k;
+            }
+        }
+        float lit = filteredShadow(first, here);
+        last = share > 0.0 ? lit : last;
         factor += open * share * (last - 1.0);
         open *= 1.0 - share;
+        next = chosen + 1;
+        if (!(share > 0.0 && open > 0.0)) break;
     }
     return factor + open * (last - 1.0);
 #else
-    return filteredShadow(uint(first), point);
+    return filteredShadow(first, point);
 #endif
 }
 )glsl";

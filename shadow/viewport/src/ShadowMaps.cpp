@@ -71,8 +71,8 @@ PageRange seenPages(const SeenInMap& seen, int pagesPerSide, int mapSize) {
 struct ShadowMaps::MapBlock {
     math::mat4 mapFromOrigin{math::vec4{0.0F}, math::vec4{0.0F}, math::vec4{0.0F},
                              math::vec4{-1e6F, -1e6F, 1.0F, 1.0F}};
-    math::vec4 fromFirst{0.0F, 0.0F, -1e6F, -1e6F};
-    math::vec4 size{1.0F, 1.0F, 1.0F, 0.0F};
+    math::vec4 fromFirst{1e-6F, 1e-6F, -1e6F, -1e6F};
+    math::vec4 size{1.0F, 1.0F, 1.0F, 1.0F};
     glm::uvec4 pages{1U, 0U, 0U, 0U};
     bool perspective() const {
         return mapFromOrigin[0].w != 0.0F || mapFromOrigin[1].w != 0.0F ||
@@ -244,7 +244,7 @@ void ShadowMaps::prepareMap(const scene::ShadowState& state, std::uint32_t map, 
          .fromFirst = {static_cast<float>(fromFirst[0][0]), static_cast<float>(fromFirst[1][1]),
                        static_cast<float>(fromFirst[3][0]), static_cast<float>(fromFirst[3][1])},
          .size = {static_cast<float>(mapSize), static_cast<float>(pageSize),
-                  1.0F / static_cast<float>(pageSize + 2), 0.0F},
+                  1.0F / static_cast<float>(pageSize + 2), 1.0F / static_cast<float>(mapSize)},
          .pages = {static_cast<std::uint32_t>(side), first, table_[first], 0U}});
 }
 

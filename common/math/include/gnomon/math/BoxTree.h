@@ -2,9 +2,7 @@
 
 #include <gnomon/math/Types.h>
 
-#include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -44,30 +42,33 @@ public:
              [&](const Box& box, std::uint32_t, bool inside) { found(box, inside); });
     }
 
-    /// Where a ray first meets a box, in lengths of its direction; infinite where it meets none.
-    /// @param entry  of a box: where the ray enters it, > 0, or infinite
-    template <class Entry>
-    double firstAlong(const dvec3& from, const dvec3& direction, Entry&& entry) const {
-        double first = std::numeric_limits<double>::infinity();
-        if (nodes_.empty()) return first;
+    /// Whether any box is not certainly outside one of the planes.
+    bool any(std::span<const Plane> planes) const noexcept;
+
+    /// Calls found(item, entry, exit) for every box that a ray passes, in no particular order: from
+    /// where to where, in lengths of its direction, 0 <= entry <= exit.
+    template <class Found>
+    void along(const dvec3& from, const dvec3& direction, Found&& found) const {
+        if (nodes_.empty()) return;
         std::uint32_t open[64];
         std::size_t count = 0;
         open[count++] = 0;
         while (count > 0) {
             const std::uint32_t index = open[--count];
             const Node& node = nodes_[index];
-            if (!(reached(node.box, from, direction) < first)) continue;
+            double entry = 0.0;
+            double exit = 0.0;
+            if (!passes(node.box, from, direction, entry, exit)) continue;
             if (node.count == 0) {
                 open[count++] = node.second;
                 open[count++] = index + 1;
                 continue;
             }
             for (std::uint32_t i = 0; i < node.count; ++i) {
-                const Box& box = boxes_[order_[node.first + i]];
-                if (!box.empty()) first = std::min(first, static_cast<double>(entry(box)));
+                const std::uint32_t item = order_[node.first + i];
+                if (passes(boxes_[item], from, direction, entry, exit)) found(item, entry, exit);
             }
         }
-        return first;
     }
 
 private:
@@ -125,8 +126,8 @@ private:
         }
         return true;
     }
-    /// Where a ray reaches a box, 0 from inside it; infinite where it does not.
-    static double reached(const Box& box, const dvec3& from, const dvec3& direction) noexcept;
+    static bool passes(const Box& box, const dvec3& from, const dvec3& direction, double& entry,
+                       double& exit) noexcept;
     void rebuild();
     std::uint32_t buildNode(std::uint32_t first, std::uint32_t last, std::uint32_t parent);
     Box boxOf(const Node& node, std::uint32_t index) const noexcept;

@@ -44,8 +44,8 @@ struct FitInput {
     std::span<const math::View> views = {};
     /// What of the scene that is, and is lit: what a map must hold. Nothing: no map.
     const Receivers& receivers;
-    /// Points of what is seen, each for an equal share of the picture.
-    std::span<const math::dvec3> samples = {};
+    /// Points of what is seen, each for an equal share of the picture, weighed for this light.
+    std::span<const Sample> samples = {};
     math::Box scene = {};  ///< bounds of all casters and receivers
     int mapSize = 512;  ///< texels a side; of fits with several maps, as many in all as one of it
     FitSettings settings = {};
@@ -70,6 +70,9 @@ struct FitInfo {
     std::string_view name = {};    ///< the word in configs and on the command line
     std::string_view source = {};  ///< authors, title, year
     Fitted (*fit)(const FitInput&) = nullptr;
+    /// Receivers that nothing shadows are left out, so that its maps are finer and move with what
+    /// casts; else they stay where they are while things move in them.
+    bool shadowedOnly = false;
 };
 
 /// Every fit built in, sorted by name.

@@ -21,25 +21,53 @@ public:
     /// @param light  what it cannot reach is left out; nullptr: all that is seen
     void add(const math::View& view, const LightShape* light, const math::BoxTree& boxes);
 
+    /// Takes flat pieces off the outline, as the light sees it, that nothing stands over: they are
+    /// lit, with or without a map, and a map that need not hold them has finer texels elsewhere.
+    /// Pieces that are partly so are cut.
+    void dropUnshadowed(const LightShape& light, const math::BoxTree& casters);
+
     bool empty() const noexcept { return points_.empty(); }
-    /// Corners of all pieces, world space; some more than once.
+    /// Corners of all pieces, world space.
     std::span<const math::dvec3> points() const noexcept { return points_; }
-    std::size_t pieces() const noexcept { return ends_.size(); }
+    std::size_t pieces() const noexcept { return pieces_.size(); }
     std::span<const math::dvec3> piece(std::size_t i) const noexcept {
-        const std::size_t first = i == 0 ? 0 : ends_[i - 1];
-        return std::span{points_}.subspan(first, ends_[i] - first);
+        return std::span{points_}.subspan(pieces_[i].first, pieces_[i].count);
     }
 
 private:
+    struct Piece {
+        std::uint32_t first = 0, count = 0;  ///< in points_
+        int flat = -1;                       ///< the axis in which it has no extent
+    };
+    void addPiece(std::span<const math::dvec3> points, int flat);
+
     std::vector<math::dvec3> points_;
-    std::vector<std::uint32_t> ends_;
+    std::vector<Piece> pieces_;
     math::ConvexBody body_;
 };
 
-/// Where rays through a grid of pixels first meet a box: a coarse picture of what is seen, each
-/// point for an equal share of it. Boxes around the eye are looked through.
+/// The scene as the fits see it: boxes of some dozens of triangles.
+struct Boxes {
+    const math::BoxTree& tree;
+    /// Of each box: a quarter of its triangles' area by its volume, 1 / metres: how many triangles,
+    /// in the mean, a metre of a ray meets in it. None: all are solid.
+    std::span<const double> density = {};
+};
+
+/// A point of what is seen.
+struct Sample {
+    math::dvec3 world{0.0};
+    /// How likely there is an edge of a shadow, 0 to 1: what a fit's texels are for.
+    double weight = 1.0;
+};
+
+/// What is seen, by rays through a grid of pixels: a coarse picture, each point for an equal share
+/// of it. A box stops as many rays as triangles of its area, spread in it at random, would.
 /// @param perSide  rays a side of each view's picture
-std::vector<math::dvec3> samplePicture(std::span<const math::View> views,
-                                       const math::BoxTree& boxes, int perSide);
+std::vector<Sample> samplePicture(std::span<const math::View> views, const Boxes& boxes,
+                                  int perSide);
+/// Weighs samples by what is between them and a light: where nothing is, or much, no edge is
+/// likely.
+void weigh(std::span<Sample> samples, const LightShape& light, const Boxes& boxes);
 
 }  // namespace gnomon::shadow_fit

@@ -9,10 +9,9 @@ namespace gnomon::shadow {
 struct FilterInfo {
     std::string_view name = {};    ///< the word in configs and on the command line
     std::string_view source = {};  ///< authors, title, year
-    /// Defines `float filteredShadow(uint map, ShadowPoint point)`: 1 lit, 0 shadowed. The point's
-    /// place is in texels of the map, its slope in depth a texel. May call `float
-    /// pageCompare(uint map, vec2 texel, float depth, vec2 slope)`, the comparison at a position in
-    /// texels interpolated between the four nearest.
+    /// Defines `float filteredShadow(int first, ShadowPoint point)`: 1 lit, 0 shadowed. The point's
+    /// place is in texels of the map, its slope in depth a texel. May call `float pageCompare(int
+    /// first, ShadowPoint point)`, the comparison interpolated between the four nearest texels.
     std::string_view glsl = {};
     /// Reach of the filter around the looked-up point, texels, each way: what must be drawn.
     float radiusTexels = 1.0F;

@@ -1,0 +1,186 @@
+#include <gnomon/shadow_fit/Fit.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "LightPlane.h"
+
+namespace gnomon::shadow_fit {
+namespace {
+
+using math::dvec2;
+using math::dvec3;
+using math::Plane;
+
+constexpr int directions = 48;     ///< that the outline is looked at from
+constexpr int mostTests = 400;     ///< then what is left stays
+constexpr double smallest = 0.01;  ///< pieces of this share of the outline are not cut
+
+/// What lies between a flat piece and the light.
+class Above {
+public:
+    /// @param slack  how far above the piece something must be, metres
+    Above(const LightShape& light, const LightPlane& plane, double slack)
+        : light_{light}, plane_{plane}, slack_{slack} {}
+
+    /// False where nothing can shadow the piece.
+    bool holds(const math::BoxTree& casters, std::span<const dvec3> piece,
+               std::span<const dvec2> onPlane, int flat) {
+        const double at = piece.front()[flat];
+        const double side = plane_.parallel() ? plane_.toward()[flat] : light_.position[flat] - at;
+        if (side == 0.0) return false;  // edge-on: not lit
+        const double sign = side > 0.0 ? 1.0 : -1.0;
+        dvec3 normal{0.0};
+        normal[flat] = sign;
+        planes_.clear();
+        planes_.push_back({normal, -sign * at - slack_});
+        const auto hull = convexHull({onPlane.begin(), onPlane.end()});
+        if (hull.size() < 3 || hull.size() + 1 > math::BoxTree::maxPlanes) return true;
+        for (std::size_t i = 0; i < hull.size(); ++i) {
+            const dvec2 edge = hull[(i + 1) % hull.size()] - hull[i];
+            const dvec2 inward{-edge.y, edge.x};
+            planes_.push_back(plane_.through({inward, -glm::dot(inward, hull[i])}));
+        }
+        return casters.any(planes_);
+    }
+
+private:
+    const LightShape& light_;
+    const LightPlane& plane_;
+    double slack_;
+    std::vector<Plane> planes_;
+};
+
+/// The part of a flat convex piece on one side of a middle: its corners there, and the cuts of all
+/// connections.
+std::vector<dvec3> halfOf(std::span<const dvec3> piece, int axis, double middle, double sign) {
+    std::vector<dvec3> half;
+    for (const dvec3& a : piece) {
+        const double da = sign * (a[axis] - middle);
+        if (da >= 0.0) half.push_back(a);
+        if (!(da < 0.0)) continue;
+        for (const dvec3& b : piece) {
+            const double db = sign * (b[axis] - middle);
+            if (db > 0.0) half.push_back(a + (b - a) * (da / (da - db)));
+        }
+    }
+    return half;
+}
+
+/// Only the corners of the outline, as the light sees it: cuts leave points within.
+std::vector<dvec3> cornersOf(const std::vector<dvec3>& points, const LightPlane& plane) {
+    const auto onPlane = [&](const dvec3& p) {
+        const dvec3 h = plane.at(p);
+        return dvec2{h} / h.z;
+    };
+    std::vector<dvec2> flat;
+    for (const dvec3& p : points) flat.push_back(onPlane(p));
+    const auto hull = convexHull(flat);
+    std::vector<dvec3> corners;
+    for (const dvec2& corner : hull)
+        for (std::size_t i = 0; i < points.size(); ++i)
+            if (flat[i] == corner) {
+                corners.push_back(points[i]);
+                break;
+            }
+    return corners;
+}
+
+}  // namespace
+
+void Receivers::dropUnshadowed(const LightShape& light, const math::BoxTree& casters) {
+    if (points_.empty() || casters.bounds().empty()) return;
+    const LightPlane plane{light};
+    std::vector<dvec2> onPlane;
+    const auto project = [&](const dvec3& p) {
+        const dvec3 h = plane.at(p);
+        onPlane.push_back(h.z > 0.0 ? dvec2{h} / h.z
+                                    : dvec2{std::numeric_limits<double>::quiet_NaN()});
+        return h.z > 0.0;
+    };
+    bool all = true;
+    for (const dvec3& p : points_) all = project(p) && all;
+    if (!all) return;  // at or behind a spot: anywhere
+    Above above{light, plane, 1e-6 * casters.bounds().radius()};
+
+    enum class State : std::uint8_t { open, kept, dropped };
+    std::vector<State> states(pieces_.size(), State::open);
+    const auto extentOf = [&](std::size_t piece, const dvec2& direction) {
+        double furthest = -std::numeric_limits<double>::infinity();
+        for (std::uint32_t i = 0; i < pieces_[piece].count; ++i)
+            furthest = std::max(furthest, glm::dot(onPlane[pieces_[piece].first + i], direction));
+        return furthest;
+    };
+    math::Box whole;
+    for (const dvec2& p : onPlane) whole.add(dvec3{p, 0.0});
+    const double least = smallest * std::max(whole.size().x, whole.size().y);
+
+    // Splits a piece that is large for what is found out; false where it is small.
+    const auto split = [&](std::size_t piece) {
+        const std::vector<dvec3> points{this->piece(piece).begin(), this->piece(piece).end()};
+        math::Box seen;
+        math::Box box;
+        for (std::uint32_t i = 0; i < pieces_[piece].count; ++i) {
+            seen.add(dvec3{onPlane[pieces_[piece].first + i], 0.0});
+            box.add(points[i]);
+        }
+        if (std::max(seen.size().x, seen.size().y) < least) return false;
+        const dvec3 size = box.size();
+        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        const int flat = pieces_[piece].flat;
+        for (const double sign : {-1.0, 1.0}) {
+            const auto half = cornersOf(halfOf(points, axis, box.centre()[axis], sign), plane);
+            if (half.size() < 3) continue;
+            const std::size_t before = pieces_.size();
+            addPiece(half, flat);
+            if (pieces_.size() == before) continue;
+            states.push_back(State::open);
+            while (onPlane.size() < points_.size()) project(points_[onPlane.size()]);
+        }
+        return true;
+    };
+
+    int tests = 0;
+    for (int i = 0; i < directions && tests < mostTests; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / directions;
+        const dvec2 direction{std::cos(angle), std::sin(angle)};
+        while (tests < mostTests) {
+            std::size_t furthest = pieces_.size();
+            double reach = -std::numeric_limits<double>::infinity();
+            for (std::size_t p = 0; p < pieces_.size(); ++p) {
+                if (states[p] == State::dropped) continue;
+                const double extent = extentOf(p, direction);
+                if (extent > reach) {
+                    reach = extent;
+                    furthest = p;
+                }
+            }
+            if (furthest == pieces_.size() || states[furthest] == State::kept) break;
+            const Piece piece = pieces_[furthest];
+            if (piece.flat < 0) {
+                states[furthest] = State::kept;  // it may shadow itself
+                break;
+            }
+            ++tests;
+            if (!above.holds(casters, this->piece(furthest),
+                             std::span{onPlane}.subspan(piece.first, piece.count), piece.flat)) {
+                states[furthest] = State::dropped;
+            } else if (split(furthest)) {
+                states[furthest] = State::dropped;  // its halves are in its place
+            } else {
+                states[furthest] = State::kept;
+                break;
+            }
+        }
+    }
+    std::vector<dvec3> points = std::move(points_);
+    const std::vector<Piece> pieces = std::move(pieces_);
+    clear();
+    for (std::size_t p = 0; p < pieces.size(); ++p)
+        if (states[p] != State::dropped)
+            addPiece(std::span{points}.subspan(pieces[p].first, pieces[p].count), pieces[p].flat);
+}
+
+}  // namespace gnomon::shadow_fit
