@@ -196,6 +196,10 @@ void RenderTest::expectClose(const Rgb& found, const Rgb& expected, int toleranc
         EXPECT_NEAR(found[c], expected[c], tolerance) << what << ", channel " << c;
 }
 
+std::string fitName(const testing::TestParamInfo<shadow_fit::FitInfo>& info) {
+    return std::string{info.param.name};
+}
+
 bool blocks(const math::Box& box, const dvec3& from, const dvec3& way, double reach) {
     double enter = 1e-9;
     double leave = reach;

@@ -99,6 +99,9 @@ private:
     static math::Affine lookFrom(const math::dvec3& from, const math::dvec3& to);
 };
 
+/// Names the rows of suites over all fits.
+std::string fitName(const testing::TestParamInfo<shadow_fit::FitInfo>& info);
+
 /// Axis-aligned box against a ray: what shadows what, without any of the code under test.
 /// @param reach  length of the ray, in lengths of @p way
 bool blocks(const math::Box& box, const math::dvec3& from, const math::dvec3& way, double reach);

@@ -10,6 +10,7 @@ using math::vec3;
 
 class TileGLTest : public RenderTest {
 protected:
+    std::string technique = "std";
     /// Everything that could differ at a seam: shadows of a sun and a spot, a gradient, a blended
     /// surface, geometry across all seams.
     void plaza(const scene::Node& below) {
@@ -55,6 +56,7 @@ protected:
                 auto e = edit(made.viewport);
                 e->mapSize = mapSize;
                 e->background = background;
+                e->technique = technique;
             }
             edit(made.window)->samples = samples;
         };
@@ -147,6 +149,76 @@ TEST_F(TileGLTest, SixTilesOfAnOffAxisScreenInStereo) {
         expectEqual(render(camera, 3, 2, {64, 64}, gradient(), 2048));
     }
 }
+
+/// Every technique, on the walls there are.
+class EveryTechniqueTileGLTest : public TileGLTest,
+                                 public testing::WithParamInterface<shadow_fit::FitInfo> {
+protected:
+    EveryTechniqueTileGLTest() {
+        technique = GetParam().name;
+        const auto sun = light<scene::DirectionalLight>(root, {-2.0, 3.0, 1.0}, {0.0, 0.0, 0.0});
+        const auto spot = light<scene::SpotLight>(sun.node, {3.0, 7.0, 4.0}, {0.0, 0.0, 0.0});
+        edit(sun.core)->intensity = 0.5F;
+        plaza(spot.node);
+    }
+    /// One face of a room with a user in it.
+    const scene::Camera& face(const math::dvec3& lowerLeft, const math::dvec3& lowerRight,
+                              const math::dvec3& upperLeft, scene::Eye eye) {
+        const auto& screen = app.create<scene::Screen>();
+        {
+            auto e = edit(screen);
+            e->lowerLeft = lowerLeft;
+            e->lowerRight = lowerRight;
+            e->upperLeft = upperLeft;
+        }
+        const auto& user = app.create<scene::User>();
+        edit(user)->roomFromHead = math::Affine{.translation = {0.4, 1.7, 6.5}};
+        const auto& camera = app.create<scene::ScreenDecorator>();
+        auto e = edit(camera);
+        e->decoratee = perspectiveView({0.0, 0.0, 0.0}, {0.0, 0.0, -1.0});
+        e->screen = screen;
+        e->user = user;
+        e->eye = eye;
+        return camera;
+    }
+};
+
+TEST_P(EveryTechniqueTileGLTest, FourTilesEqualTheWhole) {
+    const auto both = render(perspectiveView({4.0, 5.0, 9.0}, {0.0, 0.5, 0.0}), 2, 2, {128, 128},
+                             gradient(), 1024);
+    expectEqual(both);
+    EXPECT_GT(colors(both.whole), 500U);
+}
+
+TEST_P(EveryTechniqueTileGLTest, FourTilesInARowEqualTheWhole) {
+    expectEqual(
+        render(perspectiveView({4.0, 2.0, 9.0}, {0.0, 0.5, 0.0}), 4, 1, {96, 96}, gradient(), 512));
+}
+
+TEST_P(EveryTechniqueTileGLTest, StereoTilesEqualTheWhole) {
+    for (const scene::Eye eye : {scene::Eye::left, scene::Eye::right}) {
+        const auto& camera = app.create<scene::StereoDecorator>();
+        {
+            auto e = edit(camera);
+            e->decoratee = perspectiveView({4.0, 5.0, 9.0}, {0.0, 0.5, 0.0});
+            e->eye = eye;
+        }
+        expectEqual(render(camera, 2, 2, {96, 96}, gradient(), 512));
+    }
+}
+
+TEST_P(EveryTechniqueTileGLTest, TheFacesOfACaveEqualTheWhole) {
+    // Front, left and floor of a room that the plaza fills; the floor looks down at it.
+    const auto& front = face({-1.5, 0.0, 5.0}, {1.5, 0.0, 5.0}, {-1.5, 3.0, 5.0}, scene::Eye::mono);
+    const auto& left = face({-1.5, 0.0, 8.0}, {-1.5, 0.0, 5.0}, {-1.5, 3.0, 8.0}, scene::Eye::mono);
+    const auto& floor = face({-1.5, 0.5, 8.0}, {1.5, 0.5, 8.0}, {-1.5, 0.5, 5.0}, scene::Eye::mono);
+    for (const scene::Camera* camera : {&front, &left, &floor})
+        expectEqual(render(*camera, 2, 2, {64, 64}, gradient(), 512));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryTechniqueTileGLTest,
+                         testing::ValuesIn(shadow_fit::fits().begin(), shadow_fit::fits().end()),
+                         fitName);
 
 TEST_F(TileGLTest, TilesWithMultisampling) {
     const auto sun = light<scene::DirectionalLight>(root, {-2.0, 3.0, 1.0}, {0.0, 0.0, 0.0});

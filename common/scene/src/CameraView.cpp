@@ -1,6 +1,7 @@
 #include <gnomon/scene/CameraView.h>
 
 #include <cmath>
+#include <utility>
 
 namespace gnomon::scene {
 namespace {
@@ -14,7 +15,7 @@ class Resolver {
 public:
     Resolver(const field::Aspect& scene, double aspect) : scene_{scene}, aspect_{aspect} {}
 
-    Result<CameraView> resolve(Ref<Camera> ref, int depth) const {
+    Result<CameraView> resolve(Ref<Camera> ref, int depth) {
         if (depth > maxDecorators)
             return fail(Errc::edit, "a camera's decorators are nested too deep or in a circle");
         const Camera* camera = scene_.get(ref);
@@ -43,7 +44,7 @@ private:
         return result;
     }
 
-    Result<CameraView> stereo(const StereoDecorator& camera, int depth) const {
+    Result<CameraView> stereo(const StereoDecorator& camera, int depth) {
         auto result = resolve(camera.decoratee, depth + 1);
         if (!result) return result;
         const double shift = eyeSign(camera.eye) * camera.eyeSeparation;
@@ -59,7 +60,7 @@ private:
         return result;
     }
 
-    Result<CameraView> screen(const ScreenDecorator& camera, int depth) const {
+    Result<CameraView> screen(const ScreenDecorator& camera, int depth) {
         auto inner = resolve(camera.decoratee, depth + 1);
         if (!inner) return inner;
         const Screen* screen = scene_.get(camera.screen.get());
@@ -99,12 +100,15 @@ private:
         return result;
     }
 
-    Result<CameraView> tile(const TileDecorator& camera, int depth) const {
-        auto result = resolve(camera.decoratee, depth + 1);
-        if (!result) return result;
+    Result<CameraView> tile(const TileDecorator& camera, int depth) {
         const math::Rect part = camera.part;
         if (!(part.width > 0.0 && part.height > 0.0))
             return fail(Errc::edit, "a tile decorator without area");
+        // What is decorated shows the whole, which has another shape than the tile.
+        const double tileAspect = std::exchange(aspect_, aspect_ * part.height / part.width);
+        auto result = resolve(camera.decoratee, depth + 1);
+        aspect_ = tileAspect;
+        if (!result) return result;
         result->view.clipFromEye = math::tileFromWhole(part) * result->view.clipFromEye;
         result->part = {.left = result->part.left + part.left * result->part.width,
                         .bottom = result->part.bottom + part.bottom * result->part.height,

@@ -180,17 +180,29 @@ private:
     double least_;
 };
 
-Fitted fit(const FitInput& input) {
-    if (input.receivers.empty()) return {};
-    const Ground ground{input};
-    const auto viewer = viewerOf(input);
-    if (!viewer || ground.outline.atLight || input.samples.empty()) return ground.plain(true);
+/// As many texels in all as one map of the size that was asked for; whole pages, or of a smaller
+/// map whole multiples of eight.
+int sizeOf(const FitInput& input) {
     const int maps = std::clamp(input.settings.cascades, 2, 8);
-    // As many texels in all as one map of the size that was asked for; whole pages, or of a smaller
-    // map whole multiples of eight.
     const auto share = static_cast<int>(input.mapSize / std::sqrt(static_cast<double>(maps)));
     const int unit = share > pageTexels ? pageTexels : 8;
-    const int mapSize = std::max(16, share / unit * unit);
+    return std::max(16, share / unit * unit);
+}
+
+Fitted fit(const FitInput& input) {
+    if (input.receivers.empty()) return {};
+    const int mapSize = sizeOf(input);
+    const Ground ground{input};
+    // All lights' maps of a view must be of one size, the plain one too.
+    const auto plain = [&] {
+        return Fitted{.maps = {{.clipFromWorld = ground.clipFromWorld(
+                                    uniformMap(ground.outline.hull, mapSize))}},
+                      .mapSize = mapSize,
+                      .degenerate = true};
+    };
+    const auto viewer = viewerOf(input);
+    if (!viewer || ground.outline.atLight || input.samples.empty()) return plain();
+    const int maps = std::clamp(input.settings.cascades, 2, 8);
     double size = 0.0;
     for (const dvec2& p : ground.outline.hull)
         size = std::max({size, std::abs(p.x), std::abs(p.y)});
@@ -203,7 +215,7 @@ Fitted fit(const FitInput& input) {
         // A step must be worth it, or rounding would turn the maps to and fro.
         if (plan.error < best.error * (1.0 - 1e-9)) best = std::move(plan);
     }
-    if (best.maps.empty()) return ground.plain(true);
+    if (best.maps.empty()) return plain();
 
     Fitted fitted{.mapSize = mapSize};
     const dvec2 x{std::cos(best.angle), std::sin(best.angle)};

@@ -3,9 +3,9 @@
 // Tobias Martin, Tiow-Seng Tan. Anti-aliasing and Continuity with Trapezoidal Shadow Maps. 2004.
 // Nico Hempe. Diploma thesis on the OpenSG ShadowViewport. 2005, sections 6.2 and 6.3.
 //
-// The thesis' improvements: where the light sees the eye inside the far plane there is no
+// The thesis' improvements: where the light sees the eye inside the far plane the view volume has no
 // trapezoid, and the plain map is taken (6.3.1: there the far plane; the outline of the receivers
-// is within it). Base and top line come from what is really seen (6.3.2). Sides that open too wide
+// is within it) - unless the receivers have one that is expected to err less. Base and top line come from what is really seen (6.3.2). Sides that open too wide
 // move the point they start from back (6.3.3). Depth is not distorted: the perspective is a map of
 // the light's plane alone (6.3.4). Where we depart from them: base and top line touch the
 // receivers, not the view volume's corners; and the pole of the 80 % rule at 0.8 (a focus beyond it
@@ -59,8 +59,7 @@ Fitted fit(const FitInput& input) {
     if (input.receivers.empty()) return {};
     const Ground ground{input};
     const auto viewer = viewerOf(input);
-    if (!viewer || ground.outline.atLight || insideFarPlane(input, ground.plane, *viewer))
-        return ground.plain(true);
+    if (!viewer || ground.outline.atLight) return ground.plain(true);
 
     // The middle line: through the middles of the planes where what is seen begins and ends.
     const auto onMiddle = [&](double depth) {
@@ -89,8 +88,14 @@ Fitted fit(const FitInput& input) {
         eta = std::max(eta, aside / widestHalf - (glm::dot(p, along) - extent.low));
     }
     const Warp warp{.along = along, .strength = lambda / eta, .beside = beside};
-    return {
-        .maps = {{.clipFromWorld = ground.clipFromWorld(warpedMap(hull, warp, input.mapSize))}}};
+    const auto trapezoid = warpedMap(hull, warp, input.mapSize);
+    const auto expected = [&](const math::dmat3& map) {
+        return expectedError(ground.plane, map, input.mapSize, input.samples);
+    };
+    if (insideFarPlane(input, ground.plane, *viewer) &&
+        (input.samples.empty() || !(expected(trapezoid) < expected(ground.uniform))))
+        return ground.plain(true);
+    return {.maps = {{.clipFromWorld = ground.clipFromWorld(trapezoid)}}};
 }
 
 }  // namespace

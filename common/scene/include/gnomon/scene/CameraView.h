@@ -15,7 +15,8 @@ struct CameraView {
     Ref<field::FieldContainer> group = {};
 };
 
-/// @param aspect  width / height of the whole picture's pixels, for perspective cameras.
+/// @param aspect  width / height of the viewport's pixels, for perspective cameras; what a tile
+///                decorator decorates has the shape of the whole.
 /// Errors (Errc::edit): a missing decoratee, or decorators that go round in a circle.
 Result<CameraView> cameraView(const field::Aspect& scene, Ref<Camera> camera, double aspect);
 
