@@ -50,6 +50,7 @@ bool BoxTree::passes(const Box& box, const dvec3& from, const dvec3& direction, 
                      double& exit) noexcept {
     entry = 0.0;
     exit = std::numeric_limits<double>::infinity();
+    if (box.empty()) return false;
     for (int axis = 0; axis < 3; ++axis) {
         if (direction[axis] == 0.0) {
             if (!(from[axis] >= box.min[axis] && from[axis] <= box.max[axis])) return false;
