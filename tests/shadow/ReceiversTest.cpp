@@ -52,6 +52,7 @@ TEST_F(ReceiversTest, GroundThatNothingStandsOverIsDropped) {
         Receivers receivers;
         receivers.add(view, light, tree);
         EXPECT_GT(furthest(receivers, {0.0, 0.0, -1.0}), 80.0) << "seen to the horizon";
+        EXPECT_TRUE(receivers.mayBeShadowed(*light, tree));
         receivers.dropUnshadowed(*light, tree);
         ASSERT_FALSE(receivers.empty());
         // The post, and its shadow: to its foot at noon, two metres long in the afternoon.
@@ -70,6 +71,7 @@ TEST_F(ReceiversTest, WithoutAnythingThatCastsNothingIsLeft) {
     for (const LightShape* light : {&noon, &afternoon}) {
         Receivers receivers;
         receivers.add(view, light, ground);
+        EXPECT_FALSE(receivers.mayBeShadowed(*light, ground));
         receivers.dropUnshadowed(*light, ground);
         EXPECT_TRUE(receivers.empty()) << "neighbours in one plane do not shadow each other";
     }

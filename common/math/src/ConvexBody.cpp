@@ -6,22 +6,33 @@
 namespace gnomon::math {
 namespace {
 
-/// Orders the points of a convex polygon around its centre, seen along @p normal.
-void sortAround(std::vector<dvec3>& points, const dvec3& normal) {
-    dvec3 centre{0.0};
-    for (const auto& p : points) centre += p;
-    centre /= static_cast<double>(points.size());  // never called with no points
-    const dvec3 helper = std::abs(normal.x) < 0.7 ? dvec3{1.0, 0.0, 0.0} : dvec3{0.0, 1.0, 0.0};
-    const dvec3 u = glm::normalize(glm::cross(normal, helper));
-    const dvec3 v = glm::cross(normal, u);
-    const auto angle = [&](const dvec3& p) {
-        return std::atan2(glm::dot(p - centre, v), glm::dot(p - centre, u));
-    };
-    std::sort(points.begin(), points.end(),
-              [&](const dvec3& a, const dvec3& b) { return angle(a) < angle(b); });
+/// Rises with the angle of a direction, from 0 to 4 in a turn.
+double turn(double x, double y) {
+    const double sum = std::abs(x) + std::abs(y);
+    if (!(sum > 0.0) || !std::isfinite(sum)) return 0.0;
+    const double share = y / sum;
+    return x < 0.0 ? 2.0 - share : y < 0.0 ? 4.0 + share : share;
 }
 
 }  // namespace
+
+/// Orders the points of the cut, a convex polygon, around its centre, seen along @p normal.
+void ConvexBody::sortCut(const dvec3& normal) {
+    dvec3 centre{0.0};
+    for (const auto& p : cut_) centre += p;
+    centre /= static_cast<double>(cut_.size());  // never called with no points
+    const dvec3 helper = std::abs(normal.x) < 0.7 ? dvec3{1.0, 0.0, 0.0} : dvec3{0.0, 1.0, 0.0};
+    const dvec3 u = glm::cross(normal, helper);
+    const dvec3 v = glm::cross(normal, u);
+    const double scale = glm::length(normal);
+    turns_.clear();
+    for (const auto& p : cut_)
+        turns_.emplace_back(turn(glm::dot(p - centre, u) * scale, glm::dot(p - centre, v)), p);
+    std::sort(turns_.begin(), turns_.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::transform(turns_.begin(), turns_.end(), cut_.begin(),
+                   [](const auto& at) { return at.second; });
+}
 
 void ConvexBody::addFace(std::initializer_list<dvec3> corners) {
     points_.insert(points_.end(), corners.begin(), corners.end());
@@ -83,7 +94,7 @@ void ConvexBody::clip(const Plane& plane) {
             keptPoints_.resize(start);
     }
     if (cut_.size() >= 3) {
-        sortAround(cut_, plane.normal);
+        sortCut(plane.normal);
         keptPoints_.insert(keptPoints_.end(), cut_.begin(), cut_.end());
         keptEnds_.push_back(static_cast<std::uint32_t>(keptPoints_.size()));
     }

@@ -6,10 +6,15 @@
 namespace gnomon::render {
 namespace {
 
+/// Blinn-Phong's colour with what makes it conserve energy, and half its shininess.
+math::vec4 normalized(const math::vec3& specular, float shininess) {
+    return math::vec4{specular * ((shininess + 8.0F) / 8.0F), shininess * 0.5F};
+}
+
 /// MaterialBlock of Glsl.cpp, std140.
 struct MaterialBlock {
     math::vec4 diffuse{0.8F, 0.8F, 0.8F, 1.0F};
-    math::vec4 specular{0.04F, 0.04F, 0.04F, 32.0F};
+    math::vec4 specular = normalized(math::vec3{0.04F}, 32.0F);
     math::vec4 emissive{0.0F, 0.0F, 0.0F, -1.0F};
     math::vec4 texRowS{1.0F, 0.0F, 0.0F, 1.0F};
     math::vec4 texRowT{0.0F, 1.0F, 0.0F, 0.0F};
@@ -20,8 +25,7 @@ MaterialBlock blockFor(const scene::Material* material) {
     const auto* phong = dynamic_cast<const scene::PhongMaterial*>(material);
     if (phong == nullptr) return block;
     block.diffuse = phong->diffuse;
-    block.specular =
-        math::vec4{phong->specular.get(), std::clamp(phong->shininess.get(), 1.0F, 8192.0F)};
+    block.specular = normalized(phong->specular, std::clamp(phong->shininess.get(), 1.0F, 8192.0F));
     const bool masked = phong->alpha == scene::PhongMaterial::Alpha::mask;
     block.emissive = math::vec4{phong->emissive.get(), masked ? phong->alphaCutoff.get() : -1.0F};
     block.texRowS = math::vec4{phong->texRowS.get(), phong->normalScale};

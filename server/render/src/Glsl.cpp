@@ -99,21 +99,21 @@ struct Light {
     vec4 color;        // rgb times intensity
     vec4 attenuation;  // constant, linear, quadratic
     vec4 cone;         // strength = (x * cosine + y)^2
-    vec4 ambient;
-    uvec4 maps;        // y: number of shadow maps, z: index among the scene's lights
+    vec4 ambient;      // w: 1 where it has shadow maps, else 0
+    uvec4 maps;        // x: index among the scene's lights
 };
 layout(std140, binding = 1) uniform LightBlock {
     Light lights[64];
 };
 layout(std140, binding = 2) uniform ViewBlock {
     vec4 eye;            // relative to the origin; w: number of lights
-    vec4 ambientSky;
-    vec4 ambientGround;
-    vec4 shadowFloor;    // what is left of a light in its shadow
+    vec4 ambientMiddle;  // of sky and ground
+    vec4 ambientHalf;    // from there to the sky
+    vec4 shade;          // what a whole shadow takes of a light
 };
 layout(std140, binding = 3) uniform MaterialBlock {
     vec4 diffuse;
-    vec4 specular;   // w: shininess
+    vec4 specular;   // rgb normalized for the shininess, w: half the shininess
     vec4 emissive;   // w: alpha cutoff, < 0 where not masked
     vec4 texRowS;    // w: normal scale
     vec4 texRowT;
@@ -153,6 +153,8 @@ vec4 surfaceColor() {
 #endif
     return color;
 }
+
+vec3 unit(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-30)); }
 
 // Direction to a light and what reaches `position` of it without shadows; zero where none does.
 vec3 lightReaching(int i, vec3 position, out vec3 toLight) {
@@ -251,7 +253,7 @@ vec3 mappedNormal(vec3 normal, vec2 uv) {
 vec3 lit(int i, vec3 toLight, vec3 reaching, ShadowPoint point, vec3 normal, vec3 face, vec3 toEye,
          vec3 diffuse) {
 #ifdef SCOPED_LIGHTS
-    uint bit = lights[i].maps.z;
+    uint bit = lights[i].maps.x;
     if (((bit < 32u ? vLights.x : vLights.y) & (1u << (bit & 31u))) == 0u) return vec3(0.0);
 #endif
     vec3 ambient = lights[i].ambient.rgb * diffuse;
@@ -261,16 +263,14 @@ vec3 lit(int i, vec3 toLight, vec3 reaching, ShadowPoint point, vec3 normal, vec
     if (cosine > 0.0 && i < SHADOW_LIGHTS) {
         // A face that is turned away is in its own shadow, whatever its normal map says.
         float factor = dot(face, toLight) > 0.0 ? shadowFactor(i * MAPS_PER_LIGHT, point) : 0.0;
-        vec3 dark = lights[i].maps.y > 0u ? shadowFloor.rgb : vec3(1.0);
-        reaching *= dark + (1.0 - dark) * factor;
+        reaching -= reaching * shade.rgb * (lights[i].ambient.w * (1.0 - factor));
     }
 #endif
     // Energy-conserving Blinn-Phong. Source: Fabian Giesen. Phong Normalization Factor Derivation.
-    // 2009.
-    vec3 halfway = toLight + toEye;
-    float h = max(dot(normal, halfway), 0.0) * inversesqrt(max(dot(halfway, halfway), 1e-12));
-    float shininess = material.specular.w;
-    float gloss = (shininess + 8.0) * 0.125 * exp2(shininess * log2(max(h, 1e-6)));
+    // 2009. Of the halfway vector only the square of its cosine is needed.
+    float d = max(cosine + dot(normal, toEye), 0.0);
+    float square = d * d / max(2.0 + 2.0 * dot(toLight, toEye), 1e-6);
+    float gloss = exp2(material.specular.w * log2(max(square, 1e-12)));
     return ambient + reaching * (diffuse + material.specular.rgb * gloss);
 }
 #endif
@@ -280,27 +280,27 @@ void main() {
 #ifdef UNLIT
     outColor = vec4(color.rgb, color.a);
 #else
-    // The face's own normal, on the side that is seen: for what a shadow map can know.
+    // The face's own normal, of any length, on the side that is seen: for what a shadow map can
+    // know.
     vec3 toEye = eye.xyz - vPosition;
     vec3 face = cross(dFdx(vPosition), dFdy(vPosition));
     face = dot(face, toEye) < 0.0 ? -face : face;
-    face *= inversesqrt(max(dot(face, face), 1e-30));
-    toEye *= inversesqrt(max(dot(toEye, toEye), 1e-30));
+    toEye = unit(toEye);
 #ifdef HAS_NORMALS
-    vec3 normal = vNormal * inversesqrt(max(dot(vNormal, vNormal), 1e-30));
+    vec3 normal = unit(vNormal);
     normal = dot(normal, face) < 0.0 ? -normal : normal;
 #else
-    vec3 normal = face;
+    vec3 normal = unit(face);
 #endif
 #ifdef NORMAL_MAP
     normal = mappedNormal(normal, textureCoordinate());
 #endif
     vec3 diffuse = color.rgb;
-    vec3 radiance = mix(ambientGround.rgb, ambientSky.rgb, normal.y * 0.5 + 0.5) * diffuse;
+    vec3 radiance = (ambientMiddle.rgb + ambientHalf.rgb * normal.y) * diffuse;
     // Directional lights come first. The number of lights is fixed in the program and each call is
     // written out: a constant index is read once for all pixels.
 #ifdef SHADOWS
-#define FOUND(i) foundPoint((i) * MAPS_PER_LIGHT, vPosition, face)
+#define FOUND(i) foundPoint((i) * MAPS_PER_LIGHT, vPosition, unit(face))
 #else
 #define FOUND(i) 0
 #endif
@@ -359,13 +359,12 @@ void main() {
     vec3 toEye = eye.xyz - vPosition;
     vec3 face = cross(dFdx(vPosition), dFdy(vPosition));
     face = dot(face, toEye) < 0.0 ? -face : face;
-    face *= inversesqrt(max(dot(face, face), 1e-30));
     vec3 toLight;
     lightReaching(0, vPosition, toLight);
     float lit = dot(face, toLight) > 0.0 && shinesAt(0, vPosition) ? 1.0 : 0.0;
 #if SHADOW_PLACES > 0
     ShadowPoint point = interpolatedPoint(0, placeOf(0));
-    if (lit > 0.0 && lights[0].maps.y > 0u) lit = shadowFactor(0, point);
+    if (lit > 0.0 && lights[0].ambient.w > 0.0) lit = shadowFactor(0, point);
 #endif
     // 128 means that there is no surface.
     float byteValue = floor(lit * 255.0 + 0.5);
@@ -466,8 +465,8 @@ void main() {
     vec3 normal = cross(stepAlong(pixel, ivec2(1, 0), position, depth),
                         stepAlong(pixel, ivec2(0, 1), position, depth));
     normal = dot(normal, eye.xyz - position) < 0.0 ? -normal : normal;
-    normal *= inversesqrt(max(dot(normal, normal), 1e-30));
-    vec3 all = mix(ambientGround.rgb, ambientSky.rgb, normal.y * 0.5 + 0.5);
+    normal = unit(normal);
+    vec3 all = ambientMiddle.rgb + ambientHalf.rgb * normal.y;
     vec3 kept = all;
     int count = int(eye.w);
     for (int i = 0; i < count; ++i) {
@@ -482,11 +481,11 @@ void main() {
         all += reaching;
         float lit = 1.0;
 #ifdef SHADOWS
-        if (lights[i].maps.y > 0u)
+        if (lights[i].ambient.w > 0.0)
             lit = shadowFactor(i * MAPS_PER_LIGHT,
                                foundPoint(i * MAPS_PER_LIGHT, position, normal));
 #endif
-        kept += reaching * mix(shadowFloor.rgb, vec3(1.0), lit);
+        kept += reaching * (1.0 - shade.rgb * (1.0 - lit));
     }
     outColor = vec4(kept / max(all, vec3(1e-6)), 1.0);
 }

@@ -22,9 +22,9 @@ struct LightBlock {
 
 struct ViewBlock {
     math::vec4 eye{0.0F};
-    math::vec4 ambientSky{0.0F};
-    math::vec4 ambientGround{0.0F};
-    math::vec4 shadowFloor{0.0F};
+    math::vec4 ambientMiddle{0.0F};
+    math::vec4 ambientHalf{0.0F};
+    math::vec4 shade{0.0F};
 };
 
 /// False only where nothing that is seen can be reached.
@@ -87,8 +87,8 @@ Lights::Uploaded Lights::upload(const scene::FlatScene& flat, const math::View& 
         if (directional != (shape.kind == shadow_fit::LightKind::directional)) return;
         if (only < 0 && !reaches(shape, planes)) return;
         LightBlock block = blockFor(use, shape, origin);
-        block.maps = {0U, maps == nullptr ? 0U : maps->count(use.node->id()),
-                      static_cast<std::uint32_t>(i), 0U};
+        block.ambient.w = maps != nullptr && maps->count(use.node->id()) > 0 ? 1.0F : 0.0F;
+        block.maps = {static_cast<std::uint32_t>(i), 0U, 0U, 0U};
         order[static_cast<std::size_t>(done.count)] = use.node->id();
         used |= std::uint64_t{1} << i;
         blocks[static_cast<std::size_t>(done.count++)] = block;
@@ -105,11 +105,13 @@ Lights::Uploaded Lights::upload(const scene::FlatScene& flat, const math::View& 
 
     ViewBlock block;
     block.eye = math::vec4{math::dvec4{view.eyeWorld() - origin, static_cast<double>(done.count)}};
-    block.ambientSky = math::vec4{viewport.ambientSky.get(), 0.0F};
-    block.ambientGround = math::vec4{viewport.ambientGround.get(), 0.0F};
+    const math::vec3& sky = viewport.ambientSky;
+    const math::vec3& ground = viewport.ambientGround;
+    block.ambientMiddle = math::vec4{(sky + ground) * 0.5F, 0.0F};
+    block.ambientHalf = math::vec4{(sky - ground) * 0.5F, 0.0F};
     if (const auto* shadowed = dynamic_cast<const scene::ShadowViewport*>(&viewport)) {
         const math::vec4 color = shadowed->shadowColor;
-        block.shadowFloor = glm::mix(math::vec4{1.0F}, color, color.w);
+        block.shade = (math::vec4{1.0F} - color) * color.w;
     }
     if (done.count > 0)
         gl_.NamedBufferSubData(lights_.id(), 0,

@@ -1,8 +1,10 @@
 #include "LightPlane.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace gnomon::shadow_fit {
 namespace {
@@ -93,7 +95,45 @@ dmat4 coneCamera(const LightShape& light, double near, double far) {
     return math::perspective(2.0 * usableHalfAngle(light), 1.0, near, far) * lightFromWorld;
 }
 
+namespace {
+
+/// Takes out most points that are inside: those well within the polygon of the furthest in some
+/// directions.
+/// Source: S. Akl, G. Toussaint. A Fast Convex Hull Algorithm. 1978.
+template <std::size_t Count>
+void dropInner(std::vector<dvec2>& points) {
+    if (points.size() < 2 * Count) return;
+    std::array<dvec2, Count> extreme;
+    extreme.fill(points.front());
+    for (std::size_t i = 0; i < Count; ++i) {
+        const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / Count;
+        const dvec2 direction{std::cos(angle), std::sin(angle)};
+        double reach = -std::numeric_limits<double>::infinity();
+        for (const dvec2& p : points) {
+            const double here = glm::dot(p, direction);
+            if (here <= reach) continue;
+            reach = here;
+            extreme[i] = p;
+        }
+    }
+    const dvec2 size = extreme[0] - extreme[Count / 2];
+    const dvec2 across = extreme[Count / 4] - extreme[3 * Count / 4];
+    const double margin = 1e-12 * (glm::dot(size, size) + glm::dot(across, across));
+    if (!(margin > 0.0)) return;
+    std::erase_if(points, [&](const dvec2& p) {
+        for (std::size_t i = 0; i < Count; ++i) {
+            const dvec2 edge = extreme[(i + 1) % Count] - extreme[i];
+            if (edge != dvec2{0.0} && !(cross(edge, p - extreme[i]) > margin)) return false;
+        }
+        return true;
+    });
+}
+
+}  // namespace
+
 std::vector<dvec2> convexHull(std::vector<dvec2> points) {
+    dropInner<8>(points);
+    dropInner<32>(points);
     std::sort(points.begin(), points.end(), [](const dvec2& a, const dvec2& b) {
         return a.x < b.x || (a.x == b.x && a.y < b.y);
     });

@@ -134,7 +134,8 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group) {
 
     const Scene& seen = *scenes_.at(group.viewport->root->id);
     const scene::FlatScene& flat = seen.flat;
-    auto samples = samplePicture(group.views, seen.clusters.boxes(), samplesPerSide);
+    std::vector<Sample> samples;
+    if (info.sampled) samples = samplePicture(group.views, seen.clusters.boxes(), samplesPerSide);
     math::dvec3 eye{0.0};
     for (const math::View& view : group.views)
         eye += view.eyeWorld() / static_cast<double>(group.views.size());
@@ -167,17 +168,19 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group) {
         receivers_.clear();
         for (const math::View& view : group.views)
             receivers_.add(view, &light, seen.clusters.boxes().tree);
-        shadowed_ = receivers_;
-        shadowed_.dropUnshadowed(light, seen.clusters.boxes().tree);
+        const math::BoxTree& casters = seen.clusters.boxes().tree;
+        if (info.shadowedOnly)
+            receivers_.dropUnshadowed(light, casters);
+        else if (!receivers_.mayBeShadowed(light, casters))
+            receivers_.clear();
         weigh(samples, light, seen.clusters.boxes());
-        Fitted fitted =
-            info.fit({.light = light,
-                      .views = group.views,
-                      .receivers = info.shadowedOnly || shadowed_.empty() ? shadowed_ : receivers_,
-                      .samples = samples,
-                      .scene = flat.bounds(),
-                      .mapSize = rounded,
-                      .settings = {.range = group.viewport->range}});
+        Fitted fitted = info.fit({.light = light,
+                                  .views = group.views,
+                                  .receivers = receivers_,
+                                  .samples = samples,
+                                  .scene = flat.bounds(),
+                                  .mapSize = rounded,
+                                  .settings = {.range = group.viewport->range}});
         std::vector<math::dmat4> maps;
         for (const FittedMap& map : fitted.maps) {
             if (!math::isFinite(map.clipFromWorld)) {

@@ -90,6 +90,28 @@ std::vector<dvec3> cornersOf(const std::vector<dvec3>& points, const LightPlane&
 
 }  // namespace
 
+bool Receivers::mayBeShadowed(const LightShape& light, const math::BoxTree& casters) const {
+    if (casters.bounds().empty()) return false;
+    const auto isFlat = [](const Piece& piece) { return piece.flat >= 0; };
+    // What has a volume may shadow itself.
+    if (!std::all_of(pieces_.begin(), pieces_.end(), isFlat)) return true;
+    const LightPlane plane{light};
+    Above above{light, plane, 1e-6 * casters.bounds().radius()};
+    std::vector<dvec2> onPlane;
+    int tests = 0;
+    for (const Piece& piece : pieces_) {
+        const auto corners = std::span{points_}.subspan(piece.first, piece.count);
+        onPlane.clear();
+        for (const dvec3& p : corners) {
+            const dvec3 h = plane.at(p);
+            if (!(h.z > 0.0)) return true;  // at or behind a spot: anywhere
+            onPlane.push_back(dvec2{h} / h.z);
+        }
+        if (++tests > mostTests || above.holds(casters, corners, onPlane, piece.flat)) return true;
+    }
+    return false;
+}
+
 void Receivers::dropUnshadowed(const LightShape& light, const math::BoxTree& casters) {
     if (points_.empty() || casters.bounds().empty()) return;
     const LightPlane plane{light};
@@ -142,33 +164,42 @@ void Receivers::dropUnshadowed(const LightShape& light, const math::BoxTree& cas
         return true;
     };
 
+    // Of each direction the pieces by how far they reach, the furthest on top.
+    struct Reach {
+        double extent = 0.0;
+        std::size_t piece = 0;
+        bool operator<(const Reach& other) const { return extent < other.extent; }
+    };
+    std::vector<Reach> heap;
     int tests = 0;
     for (int i = 0; i < directions && tests < mostTests; ++i) {
         const double angle = 2.0 * std::numbers::pi * i / directions;
         const dvec2 direction{std::cos(angle), std::sin(angle)};
-        while (tests < mostTests) {
-            std::size_t furthest = pieces_.size();
-            double reach = -std::numeric_limits<double>::infinity();
-            for (std::size_t p = 0; p < pieces_.size(); ++p) {
-                if (states[p] == State::dropped) continue;
-                const double extent = extentOf(p, direction);
-                if (extent > reach) {
-                    reach = extent;
-                    furthest = p;
-                }
-            }
-            if (furthest == pieces_.size() || states[furthest] == State::kept) break;
+        heap.clear();
+        for (std::size_t p = 0; p < pieces_.size(); ++p)
+            if (states[p] != State::dropped) heap.push_back({extentOf(p, direction), p});
+        std::make_heap(heap.begin(), heap.end());
+        while (tests < mostTests && !heap.empty()) {
+            const std::size_t furthest = heap.front().piece;
+            if (states[furthest] == State::kept) break;
             const Piece piece = pieces_[furthest];
             if (piece.flat < 0) {
                 states[furthest] = State::kept;  // it may shadow itself
                 break;
             }
+            std::pop_heap(heap.begin(), heap.end());
+            heap.pop_back();
             ++tests;
+            const std::size_t before = pieces_.size();
             if (!above.holds(casters, this->piece(furthest),
                              std::span{onPlane}.subspan(piece.first, piece.count), piece.flat)) {
                 states[furthest] = State::dropped;
             } else if (split(furthest)) {
                 states[furthest] = State::dropped;  // its halves are in its place
+                for (std::size_t p = before; p < pieces_.size(); ++p) {
+                    heap.push_back({extentOf(p, direction), p});
+                    std::push_heap(heap.begin(), heap.end());
+                }
             } else {
                 states[furthest] = State::kept;
                 break;

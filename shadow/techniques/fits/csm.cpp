@@ -240,7 +240,8 @@ Fitted fit(const FitInput& input) {
 }  // namespace
 
 FitInfo describe_csm() {
-    return {.name = "csm", .source = "Engel 2006; Lauritzen et al. 2011", .fit = fit};
+    return {
+        .name = "csm", .source = "Engel 2006; Lauritzen et al. 2011", .fit = fit, .sampled = true};
 }
 
 }  // namespace gnomon::shadow_fit

@@ -48,7 +48,8 @@ FitInfo describe_lispsm() {
     return {.name = "lispsm",
             .source = "Wimmer, Scherzer, Purgathofer 2004",
             .fit = fit,
-            .shadowedOnly = true};
+            .shadowedOnly = true,
+            .sampled = true};
 }
 
 }  // namespace gnomon::shadow_fit

@@ -3,13 +3,14 @@
 // Tobias Martin, Tiow-Seng Tan. Anti-aliasing and Continuity with Trapezoidal Shadow Maps. 2004.
 // Nico Hempe. Diploma thesis on the OpenSG ShadowViewport. 2005, sections 6.2 and 6.3.
 //
-// The thesis' improvements: where the light sees the eye inside the far plane the view volume has no
-// trapezoid, and the plain map is taken (6.3.1: there the far plane; the outline of the receivers
-// is within it) - unless the receivers have one that is expected to err less. Base and top line come from what is really seen (6.3.2). Sides that open too wide
-// move the point they start from back (6.3.3). Depth is not distorted: the perspective is a map of
-// the light's plane alone (6.3.4). Where we depart from them: base and top line touch the
-// receivers, not the view volume's corners; and the pole of the 80 % rule at 0.8 (a focus beyond it
-// turns the trapezoid over) is kept away from.
+// The thesis' improvements: where the light sees the eye inside the far plane the view volume has
+// no trapezoid, and the plain map is taken (6.3.1: there the far plane; the outline of the
+// receivers is within it) - unless the receivers have one that is expected to err less. Base and
+// top line come from what is really seen (6.3.2). Sides that open too wide move the point they
+// start from back (6.3.3). Depth is not distorted: the perspective is a map of the light's plane
+// alone (6.3.4). Where we depart from them: base and top line touch the receivers, not the view
+// volume's corners; and the pole of the 80 % rule at 0.8 (a focus beyond it turns the trapezoid
+// over) is kept away from.
 #include <algorithm>
 #include <cmath>
 
@@ -104,7 +105,8 @@ FitInfo describe_trapez() {
     return {.name = "trapez",
             .source = "Martin, Tan 2004; Hempe 2005",
             .fit = fit,
-            .shadowedOnly = true};
+            .shadowedOnly = true,
+            .sampled = true};
 }
 
 }  // namespace gnomon::shadow_fit

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace gnomon::math {
@@ -31,12 +32,14 @@ public:
 
 private:
     void addFace(std::initializer_list<dvec3> corners);
+    void sortCut(const dvec3& normal);
 
     std::vector<dvec3> points_;        // faces one after the other
     std::vector<std::uint32_t> ends_;  // of each face in points_
     std::vector<dvec3> keptPoints_, cut_;
     std::vector<std::uint32_t> keptEnds_;
     std::vector<double> distances_;
+    std::vector<std::pair<double, dvec3>> turns_;
 };
 
 }  // namespace gnomon::math

@@ -73,6 +73,7 @@ struct FitInfo {
     /// Receivers that nothing shadows are left out, so that its maps are finer and move with what
     /// casts; else they stay where they are while things move in them.
     bool shadowedOnly = false;
+    bool sampled = false;  ///< reads the samples; else there are none
 };
 
 /// Every fit built in, sorted by name.

@@ -26,6 +26,9 @@ public:
     /// Pieces that are partly so are cut.
     void dropUnshadowed(const LightShape& light, const math::BoxTree& casters);
 
+    /// False where nothing can shadow any of it: no map is needed.
+    bool mayBeShadowed(const LightShape& light, const math::BoxTree& casters) const;
+
     bool empty() const noexcept { return points_.empty(); }
     /// Corners of all pieces, world space.
     std::span<const math::dvec3> points() const noexcept { return points_; }

@@ -53,8 +53,7 @@ private:
     std::set<field::Id> windows_;
     std::map<Key, Held> states_;
     std::map<field::Id, std::unique_ptr<Scene>> scenes_;  ///< by root
-    Receivers receivers_;                                 // kept for their memory
-    Receivers shadowed_;
+    Receivers receivers_;                                 // kept for its memory
     std::vector<std::string> warned_;
     std::uint64_t round_ = 0;
 };
