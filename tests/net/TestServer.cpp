@@ -31,8 +31,11 @@ void TestServer::kill() {
 }
 
 void TestServer::stallAt(std::uint64_t frame) {
-    const std::lock_guard lock{mutex_};
-    stallAt_ = frame;
+    {
+        const std::lock_guard lock{mutex_};
+        stallAt_ = frame;
+    }
+    changed_.notify_all();
 }
 
 void TestServer::release() {

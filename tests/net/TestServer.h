@@ -57,7 +57,8 @@ public:
     std::uint16_t port() const { return host_->port(); }
     ServerAddress address() const { return {.name = name_, .host = "127.0.0.1", .port = port()}; }
 
-    /// The main thread stops before it makes this frame (or a later one) Ready, until release().
+    /// The main thread stops before it makes this frame (or a later one) Ready, until release(), or
+    /// until a later frame is named.
     void stallAt(std::uint64_t frame);
     void release();
     /// Ends the program as a crash does, as seen from outside.
