@@ -1,8 +1,9 @@
 # gnomon_add_module(<name> SOURCES <...> HEADERS <...> DEPENDS <...> [PRIVATE_DEPENDS <...>])
 # Defines library gnomon_<name>, known to others as gnomon::<name>. It publishes only its own
-# include folder, so that an include the link graph forbids does not compile.
+# include folder, so that an include the link graph forbids does not compile. SEPARATE: its files use
+# one name for different things (each technique its own `fit`), so they are never batched.
 function(gnomon_add_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS;DEPENDS;PRIVATE_DEPENDS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "SEPARATE" "" "SOURCES;HEADERS;DEPENDS;PRIVATE_DEPENDS")
   add_library(gnomon_${name} STATIC ${arg_SOURCES})
   add_library(gnomon::${name} ALIAS gnomon_${name})
   target_sources(gnomon_${name} PUBLIC
@@ -13,6 +14,9 @@ function(gnomon_add_module name)
     PRIVATE ${arg_PRIVATE_DEPENDS} gnomon_options)
   set_target_properties(gnomon_${name} PROPERTIES
     VERIFY_INTERFACE_HEADER_SETS ON POSITION_INDEPENDENT_CODE ON)
+  if(arg_SEPARATE)
+    set_target_properties(gnomon_${name} PROPERTIES UNITY_BUILD OFF)
+  endif()
 endfunction()
 
 # gnomon_add_test(<name> LABELS <...> SOURCES <...> DEPENDS <...>)

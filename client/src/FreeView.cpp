@@ -1,11 +1,11 @@
 #include "FreeView.h"
 
 #include <gnomon/client/AnimationPlayer.h>
+#include <gnomon/client/WallSetup.h>
 
 namespace gnomon::client {
 namespace {
 
-constexpr std::array<int, 2> defaultSize{1024, 1024};
 constexpr double defaultFovy = 1.0471975511965976;  // 60 degrees
 
 }  // namespace
@@ -27,7 +27,7 @@ PreparedScene loadScene(field::Aspect& aspect, Console& console, const LoadOptio
 
 field::Ref<scene::Window> addFreeView(field::Aspect& aspect, const PreparedScene& prepared,
                                       const FreeViewOptions& options) {
-    const auto size = options.view.size.value_or(defaultSize);
+    const auto size = options.view.size.value_or(defaultViewSize);
     const double shape = static_cast<double>(size[0]) / size[1];
     const auto fallback =
         defaultView(aspect, prepared, opening(options.view.fovy.value_or(defaultFovy), shape));
@@ -49,8 +49,7 @@ field::Ref<scene::Window> addFreeView(field::Aspect& aspect, const PreparedScene
         e->camera = camera;
         e->root = prepared.tree.root;
         e->background = sky;
-        e->technique = options.shadow.technique;
-        e->mapSize = static_cast<std::int32_t>(options.shadow.mapSize);
+        applyShadow(options.shadow, *e);
     }
     const auto& window = aspect.create<scene::Window>();
     auto e = edit(window);

@@ -17,6 +17,9 @@ struct LoadOptions {
 /// With a progress bar; what the importer warns of goes to the console. @throws Failure
 PreparedScene loadScene(field::Aspect& aspect, Console& console, const LoadOptions& options);
 
+/// Pixels of a picture whose size is not said.
+inline constexpr std::array<int, 2> defaultViewSize{1024, 1024};
+
 struct FreeViewOptions {
     ViewArguments view = {};
     config::Shadow shadow = {};

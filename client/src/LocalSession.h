@@ -32,6 +32,8 @@ public:
 
 private:
     static field::TypeRegistry makeTypes();
+    void replicate(field::ChangeList changes);
+    std::optional<shadow_fit::DepthSpan> depthSpan(bool drawn);
 
     field::TypeRegistry types_;
     field::Aspect aspect_;
@@ -40,6 +42,7 @@ private:
     shadow_fit::ShadowFitter fitter_;
     gl::Context& context_;
     std::unique_ptr<render::Renderer> renderer_;
+    bool drawn_ = false;  ///< something may have been, since the first commit
 };
 
 /// @param backend  as on the command line. @throws Failure Errc::context

@@ -72,6 +72,23 @@ net::HubHooks ServerLink::hooks() const {
     hooks.prepare = [fitter](field::Aspect& session, const field::Applied& applied, std::uint64_t) {
         fitter->update(session, applied);
     };
+    const auto span = [](float min, float max) {
+        std::optional<shadow_fit::DepthSpan> seen;
+        if (min <= max) seen = {.near = min, .far = max};
+        return seen;
+    };
+    hooks.wantsDepth = [fitter](const field::Aspect&, std::uint64_t) {
+        return fitter->wantsDepth();
+    };
+    hooks.fit = [fitter, span](field::Aspect& session, std::uint64_t, float min, float max) {
+        fitter->fit(session, span(min, max));
+    };
+    hooks.tellsDepth = [fitter](const field::Aspect&, std::uint64_t) {
+        return fitter->tellsDepth();
+    };
+    hooks.depthSeen = [fitter, span](std::uint64_t, float min, float max) {
+        fitter->depthSeen(span(min, max));
+    };
     hooks.log = [log](net::LogLevel level, const std::string& text) { log(level, text); };
     return hooks;
 }

@@ -110,7 +110,8 @@ void Shot::lookFreely() {
     config::Shadow shadow;
     options_.shadow.apply(shadow);
     technique_ = shadow.technique;
-    mapSize_ = static_cast<int>(shadow.mapSize);
+    const auto size = options_.view.size.value_or(defaultViewSize);
+    mapSize_ = shadow.mapSize.value_or(scene::mapSizeFor({size[0], size[1]}));
     const auto window = addFreeView(
         session_.aspect(), scene_,
         {.view = options_.view, .shadow = shadow, .samples = options_.samples, .server = "shot"});
@@ -126,7 +127,6 @@ void Shot::lookAsWall() {
     if (options_.view.far) wall.render.far = options_.view.far;
     options_.shadow.apply(wall.shadow);
     technique_ = wall.shadow.technique;
-    mapSize_ = static_cast<int>(wall.shadow.mapSize);
     field::Aspect& aspect = session_.aspect();
     const Look look = options_.view.look().value_or(
         defaultView(aspect, scene_, wallOpening(wall), wallDistance(wall)).look);
@@ -139,7 +139,10 @@ void Shot::lookAsWall() {
         setView(aspect, whole, wall, look);
         setDepthRange(aspect, whole, wall, depthRange(scene_.bounds, look.eye));
         Shown shown{.window = whole.windows.front()};
-        const int width = aspect.get(shown.window)->size->x / static_cast<int>(eyes.size());
+        const glm::ivec2 size = aspect.get(shown.window)->size;
+        const int width = size.x / static_cast<int>(eyes.size());
+        mapSize_ =
+            std::max(mapSize_, wall.shadow.mapSize.value_or(scene::mapSizeFor({width, size.y})));
         for (std::size_t k = 0; k < eyes.size(); ++k) {
             std::string suffix;
             if (wall.screens.size() > 1) suffix += "-" + wall.screens[i].name;
@@ -162,9 +165,15 @@ render::FrameStatistics Shot::draw() {
     render::FrameStatistics sum;
     for (const Shown& shown : shown_) {
         const auto one = orThrow(session_.renderer().draw(session_.rendered(shown.window), 0.0));
-        sum.triangles += one.triangles + one.shadowTriangles;
+        sum.triangles += one.triangles;
+        sum.shadowTriangles += one.shadowTriangles;
+        sum.chunks += one.chunks;
+        sum.chunksCulled += one.chunksCulled;
+        sum.lights += one.lights;
+        sum.lightsUnseen += one.lightsUnseen;
         sum.pagesDrawn += one.pagesDrawn;
         sum.pagesKept += one.pagesKept;
+        sum.pagesUnseen += one.pagesUnseen;
         sum.mapTexels += one.mapTexels;
         sum.mapBytes = one.mapBytes;
         sum.degenerate += one.degenerate;
@@ -257,11 +266,17 @@ void Shot::writeJson() const {
                            {"color", passes_.colorMs},
                            {"overlay", passes_.overlayMs}};
     }
-    json["triangles"] = last_.triangles;
+    json["triangles"] = last_.triangles + last_.shadowTriangles;
+    json["shadow_triangles"] = last_.shadowTriangles;
+    json["chunks"] = last_.chunks;
+    json["chunks_culled"] = last_.chunksCulled;
+    json["lights"] = last_.lights;
+    json["lights_unseen"] = last_.lightsUnseen;
     json["map_texels"] = last_.mapTexels;
     json["map_bytes"] = last_.mapBytes;
     json["pages_drawn"] = last_.pagesDrawn;
     json["pages_kept"] = last_.pagesKept;
+    json["pages_unseen"] = last_.pagesUnseen;
     json["degenerate"] = last_.degenerate;
     if (options_.json.empty()) {
         std::fputs((json.dump(2) + "\n").c_str(), stdout);

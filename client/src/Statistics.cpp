@@ -109,6 +109,9 @@ nlohmann::json Statistics::json(const std::vector<net::ServerStatus>& servers) c
              {"colour_ms", stats.colourMs},
              {"pages_drawn", stats.pagesDrawn},
              {"pages_kept", stats.pagesKept},
+             {"pages_unseen", stats.pagesUnseen},
+             {"chunks_culled", stats.chunksCulled},
+             {"lights_unseen", stats.lightsUnseen},
              {"map_texels", stats.mapTexels},
              {"map_bytes", stats.mapBytes},
              {"degenerate", stats.degenerate}});

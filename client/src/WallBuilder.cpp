@@ -13,8 +13,6 @@ using field::Ref;
 
 namespace {
 
-math::dvec3 toVector(const config::Point& point) { return {point[0], point[1], point[2]}; }
-
 scene::Eye toEye(config::Eye eye) {
     switch (eye) {
         case config::Eye::left:
@@ -142,25 +140,10 @@ Ref<scene::Viewport> WallBuilder::addViewport(std::size_t screen, config::Eye ey
     e->camera = camera;
     e->root = root_;
     e->background = background_;
-    applyShadow(*e);
+    applyShadow(config_.shadow, *e);
     placeForeground(*e, canvas, part);
     made_.viewports.emplace_back(viewport);
     return viewport;
-}
-
-void WallBuilder::applyShadow(scene::ShadowViewport& viewport) const {
-    const config::Shadow& from = config_.shadow;
-    viewport.shadowOn = from.on;
-    viewport.technique = from.technique;
-    viewport.mapSize = from.mapSize;
-    viewport.shadowColor =
-        math::vec4{linearFromSrgb(from.color[0]), linearFromSrgb(from.color[1]),
-                   linearFromSrgb(from.color[2]), static_cast<float>(from.color[3])};
-    viewport.range = static_cast<float>(from.range);
-    viewport.qualityMode = from.qualityMode;
-    viewport.overrideBias = from.offsetBias || from.offsetFactor;
-    if (from.offsetBias) viewport.offBias = static_cast<float>(*from.offsetBias);
-    if (from.offsetFactor) viewport.offFactor = static_cast<float>(*from.offsetFactor);
 }
 
 void WallBuilder::placeForeground(scene::ShadowViewport& viewport, const config::Canvas& canvas,

@@ -7,6 +7,8 @@
 
 namespace gnomon::client {
 
+inline math::dvec3 toVector(const config::Point& point) { return {point[0], point[1], point[2]}; }
+
 /// Makes the containers of a wall one by one.
 class WallBuilder {
 public:
@@ -31,7 +33,6 @@ private:
     field::Ref<scene::Camera> eyeCamera(std::size_t screen, config::Eye eye);
     void placeForeground(scene::ShadowViewport& viewport, const config::Canvas& canvas,
                          const config::TileRect& part);
-    void applyShadow(scene::ShadowViewport& viewport) const;
 
     field::Aspect& aspect_;
     const config::Config& config_;

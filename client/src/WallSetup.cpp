@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "Color.h"
 #include "WallBuilder.h"
 
 namespace gnomon::client {
@@ -37,6 +38,24 @@ Result<WallContainers> buildWall(field::Aspect& aspect, const config::Config& co
         }
     }
     return builder.take();
+}
+
+void applyShadow(const config::Shadow& from, scene::ShadowViewport& viewport) {
+    viewport.shadowOn = from.on;
+    viewport.technique = from.technique;
+    viewport.mapSize = from.mapSize.value_or(0);
+    viewport.shadowColor =
+        math::vec4{linearFromSrgb(from.color[0]), linearFromSrgb(from.color[1]),
+                   linearFromSrgb(from.color[2]), static_cast<float>(from.color[3])};
+    viewport.range = static_cast<float>(from.range);
+    viewport.qualityMode = from.qualityMode;
+    viewport.depthRange =
+        from.qualityMode || from.depthRange == config::DepthRange::exact ? scene::DepthUse::exact
+        : from.depthRange == config::DepthRange::previous                ? scene::DepthUse::previous
+                                                                         : scene::DepthUse::off;
+    viewport.overrideBias = from.offsetBias || from.offsetFactor;
+    if (from.offsetBias) viewport.offBias = static_cast<float>(*from.offsetBias);
+    if (from.offsetFactor) viewport.offFactor = static_cast<float>(*from.offsetFactor);
 }
 
 Result<WallContainers> buildWholeScreen(field::Aspect& aspect, const config::Config& config,
@@ -96,8 +115,6 @@ struct Seen {
     double ahead = -1.0;    ///< cosine between -z and the way to the screen's middle
     bool inFront = false;   ///< all of it, and not too oblique
 };
-
-math::dvec3 toVector(const config::Point& point) { return {point[0], point[1], point[2]}; }
 
 Seen see(const config::Config& config, const config::Screen& screen) noexcept {
     constexpr double widest = 4.0;  // tangent of 76 degrees

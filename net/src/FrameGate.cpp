@@ -82,6 +82,7 @@ Result<void> FrameGate::frame(wire::Frame message) {
                   .capture = (message.flags & wire::Frame::capture) != 0,
                   .digest = (message.flags & wire::Frame::digest) != 0,
                   .wantsDepth = (message.flags & wire::Frame::wantsDepth) != 0,
+                  .tellsDepth = (message.flags & wire::Frame::tellsDepth) != 0,
                   .changes = {.bytes = {message.tail.begin(), message.tail.end()}}},
         .needed = std::move(message.needed),
         .released = std::move(message.released)};

@@ -12,7 +12,7 @@ constexpr std::size_t maxGuests = 16;
 constexpr std::size_t maxBacklog = maxChangeBytes;
 constexpr std::size_t maxWaitingImages = std::size_t{2} << 30U;
 /// How long a connection that was sent away may take to read why.
-constexpr Milliseconds farewell{1000};
+constexpr Milliseconds sendFarewell{1000};
 
 template <class M, class Fn>
 Result<void> with(std::span<const std::byte> body, Fn&& fn) {
@@ -85,7 +85,7 @@ void HostCore::refuse(std::shared_ptr<Channel> channel, const std::string& why) 
     channel->send(Part::of(packet(wire::Refused{.why = why.substr(0, 4096)})));
     channel->finish();
     auto limit = std::make_unique<Timer>(io_);
-    limit->after(farewell, [this, raw = channel.get()] {
+    limit->after(sendFarewell, [this, raw = channel.get()] {
         if (const auto guest = takeGuest(*raw)) guest->close();
     });
     guests_.push_back({.channel = std::move(channel), .limit = std::move(limit)});

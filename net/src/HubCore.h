@@ -75,6 +75,7 @@ private:
         std::uint64_t n = 0;
         bool capture = false;
         bool wantsDepth = false;
+        bool tellsDepth = false;
         Part head = {};     // length, type and fields of Frame
         Part changes = {};  // its tail
         std::uint64_t bytes = 0;
@@ -93,6 +94,7 @@ private:
     void prepare(FrameCall& call);
     void encode(FrameCall& call);
     void tryFit();
+    void noteDepth();
     void sendFrame();
     void swapFrame();
     bool barrierDone() const;

@@ -7,6 +7,23 @@
 #include "HubCore.h"
 
 namespace gnomon::net {
+namespace {
+
+/// What all servers see together; min > max: nothing.
+struct MergedDepth {
+    float min = std::numeric_limits<float>::max();
+    float max = std::numeric_limits<float>::lowest();
+    bool any = false;  ///< somebody told something
+
+    void add(const Depth& depth) {
+        any = true;
+        if (depth.min > depth.max) return;
+        min = std::min(min, depth.min);
+        max = std::max(max, depth.max);
+    }
+};
+
+}  // namespace
 
 void HubCore::handOver(std::shared_ptr<FrameCall> call) {
     call->n = ++handedOver_;
@@ -70,10 +87,13 @@ void HubCore::encode(FrameCall& call) {
     frame.needed = ledger_.take(list, fresh);
     frame.released = ledger_.release(session_.takeUnusedPayloads());
     const bool wantsDepth = hooks_.fit && hooks_.wantsDepth && hooks_.wantsDepth(session_, call.n);
+    const bool tellsDepth =
+        !wantsDepth && hooks_.depthSeen && hooks_.tellsDepth && hooks_.tellsDepth(session_, call.n);
     const bool digest =
         options_.digestEvery > 0 && call.n % static_cast<std::uint64_t>(options_.digestEvery) == 0;
     if (call.capture) frame.flags |= wire::Frame::capture;
     if (wantsDepth) frame.flags |= wire::Frame::wantsDepth;
+    if (tellsDepth) frame.flags |= wire::Frame::tellsDepth;
     if (digest) {
         frame.flags |= wire::Frame::digest;
         noteDigest(call.n);
@@ -83,6 +103,7 @@ void HubCore::encode(FrameCall& call) {
     Prepared prepared{.n = call.n,
                       .capture = call.capture,
                       .wantsDepth = wantsDepth,
+                      .tellsDepth = tellsDepth,
                       .head = Part::of(packet(frame)),
                       .changes = changes};
     prepared.bytes = prepared.head.bytes.size() + changes.bytes.size();
@@ -103,22 +124,17 @@ void HubCore::noteDigest(std::uint64_t n) {
 void HubCore::tryFit() {
     if (!outstanding_ || !outstanding_->frame.wantsDepth || outstanding_->fitted) return;
     const std::uint64_t n = outstanding_->frame.n;
-    float min = std::numeric_limits<float>::max();
-    float max = std::numeric_limits<float>::lowest();
-    bool any = false;
+    MergedDepth merged;
     for (const auto& peer : peers_) {
         const Standing& standing = peer->standing;
         if (!standing.member || standing.lastReady >= n) continue;
         if (!standing.depth || standing.depth->n != n) return;
-        any = true;
-        if (standing.depth->min > standing.depth->max) continue;  // it sees nothing
-        min = std::min(min, standing.depth->min);
-        max = std::max(max, standing.depth->max);
+        merged.add(*standing.depth);
     }
-    if (!any) return;
+    if (!merged.any) return;
     outstanding_->fitted = true;
     try {
-        hooks_.fit(session_, n, min, max);
+        hooks_.fit(session_, n, merged.min, merged.max);
     } catch (...) {
         failure_ = std::current_exception();
         return failCalls();
@@ -134,6 +150,20 @@ void HubCore::tryFit() {
         peer->queue(head);
         peer->queue(changes);
     }
+}
+
+/// Of the outstanding frame, when it is about to be swapped.
+void HubCore::noteDepth() {
+    const std::uint64_t n = outstanding_->frame.n;
+    MergedDepth merged;
+    for (const auto& peer : peers_) {
+        const Standing& standing = peer->standing;
+        if (!standing.member || standing.lastReady < n) continue;
+        // One that began with this frame, from a snapshot, was not asked.
+        if (!standing.depth || standing.depth->n != n) return;
+        merged.add(*standing.depth);
+    }
+    if (merged.any) hooks_.depthSeen(n, merged.min, merged.max);
 }
 
 void HubCore::sendFrame() {
@@ -171,6 +201,7 @@ bool HubCore::barrierDone() const {
 
 void HubCore::swapFrame() {
     const std::uint64_t n = outstanding_->frame.n;
+    if (outstanding_->frame.tellsDepth) noteDepth();
     const Part part = Part::of(packet(wire::Swap{.n = n}));
     for (const auto& peer : peers_) sendSwap(*peer, n, part);
     latest_.shown = n;

@@ -66,6 +66,10 @@ Station& FrameLoop::station(int gpu) {
     return *slot;
 }
 
+Station& FrameLoop::stationOf(const scene::Window& window) {
+    return station(window.gpu >= 0 ? window.gpu.get() : options_.gpu);
+}
+
 void FrameLoop::report(net::LogLevel level, const std::string& text) {
     host_->send(net::Log{.level = level, .text = text});
 }
@@ -153,8 +157,7 @@ void FrameLoop::take(const net::Frame& frame) {
     const bool changed = apply(frame.changes);
     if (frame.digest) host_->send(net::Digest{.n = frame.n, .digest = session_->scene->digest()});
     if (frame.wantsDepth) {
-        // Depth is reduced by fits that ask for it; this server has none to tell yet.
-        host_->send(net::Depth{.n = frame.n, .min = 1.0F, .max = 0.0F});
+        tellDepth(frame.n, false);
         waiting_ = frame;
         waitingChanged_ = changed;
         return;
@@ -166,7 +169,24 @@ void FrameLoop::take(const net::Frame& frame) {
         ++session_->skipped;
         return;
     }
-    renderFrame(frame.n, frame.time, frame.capture, changed, since);
+    renderFrame(frame.n, frame.time, frame.capture, changed, since, frame.tellsDepth);
+}
+
+void FrameLoop::tellDepth(std::uint64_t n, bool drawn) {
+    net::Depth& depth = session_->depth;
+    depth = {.n = n, .min = 1.0F, .max = 0.0F};
+    for (const scene::Window* window : session_->windows) {
+        if (options_.backend == "none") break;
+        const auto span = orThrow(stationOf(*window).depthSpan(*window, drawn));
+        if (!span) continue;
+        const auto near = static_cast<float>(span->near);
+        const auto far = static_cast<float>(span->far);
+        const bool first = depth.min > depth.max;
+        depth.min = first ? near : std::min(depth.min, near);
+        depth.max = first ? far : std::max(depth.max, far);
+    }
+    host_->send(depth);
+    session_->depthKnown = true;
 }
 
 void FrameLoop::take(const net::Fit& fit) {
@@ -178,7 +198,7 @@ void FrameLoop::take(const net::Fit& fit) {
 }
 
 void FrameLoop::renderFrame(std::uint64_t n, double time, bool capture, bool changed,
-                            Clock::time_point since) {
+                            Clock::time_point since, bool tellsDepth) {
     net::Ready ready{.n = n, .shownFrame = shownFrame_, .shownAt = shownAt_};
     const auto applied = Clock::now();
     ready.stats.applyMs = static_cast<float>(milliseconds(applied - since));
@@ -188,7 +208,7 @@ void FrameLoop::renderFrame(std::uint64_t n, double time, bool capture, bool cha
     const bool draw = options_.backend != "none" && (changed || animates || !session_->drawn);
     for (const scene::Window* window : session_->windows) {
         if (options_.backend == "none") break;
-        Station& at = station(window->gpu >= 0 ? window->gpu.get() : options_.gpu);
+        Station& at = stationOf(*window);
         if (draw) {
             auto drawn = at.draw(*window, time);
             if (!drawn) throw Failure{std::move(drawn).error()};
@@ -196,6 +216,9 @@ void FrameLoop::renderFrame(std::uint64_t n, double time, bool capture, bool cha
             ready.stats.drawCalls += static_cast<std::uint32_t>(drawn->chunks);
             ready.stats.pagesDrawn += static_cast<std::uint32_t>(drawn->pagesDrawn);
             ready.stats.pagesKept += static_cast<std::uint32_t>(drawn->pagesKept);
+            ready.stats.pagesUnseen += static_cast<std::uint32_t>(drawn->pagesUnseen);
+            ready.stats.chunksCulled += static_cast<std::uint32_t>(drawn->chunksCulled);
+            ready.stats.lightsUnseen += static_cast<std::uint32_t>(drawn->lightsUnseen);
             ready.stats.degenerate += static_cast<std::uint32_t>(drawn->degenerate);
             ready.stats.mapTexels += drawn->mapTexels;
             ready.stats.mapBytes += drawn->mapBytes;
@@ -213,6 +236,13 @@ void FrameLoop::renderFrame(std::uint64_t n, double time, bool capture, bool cha
     }
     session_->drawn = true;
     session_->drawnFrame = n;
+    session_->depthKnown = session_->depthKnown && !draw;
+    if (tellsDepth && session_->depthKnown) {
+        session_->depth.n = n;
+        host_->send(session_->depth);
+    } else if (tellsDepth) {
+        tellDepth(n, true);
+    }
     ready.stats.catchUp = std::exchange(session_->skipped, 0U);
     ready.stats.renderMs = static_cast<float>(milliseconds(Clock::now() - since));
     host_->send(ready);
@@ -222,7 +252,7 @@ void FrameLoop::show(std::uint64_t n) {
     if (n != session_->drawnFrame) return;
     for (const scene::Window* window : session_->windows) {
         if (stations_.empty()) break;
-        auto shown = station(window->gpu >= 0 ? window->gpu.get() : options_.gpu).present(*window);
+        auto shown = stationOf(*window).present(*window);
         if (!shown) throw Failure{std::move(shown).error()};
     }
     shownFrame_ = n;

@@ -32,6 +32,8 @@ private:
         std::uint64_t drawnFrame = 0;
         std::uint32_t skipped = 0;  ///< frames applied, not drawn, since the last Ready
         bool drawn = false;
+        net::Depth depth = {};  ///< of drawnFrame, where it was told
+        bool depthKnown = false;
     };
 
     void join(const net::ClientJoined& joined);
@@ -43,10 +45,13 @@ private:
     /// Applies and passes on; true where anything changed.
     bool apply(const field::ChangeList& changes);
     void renderFrame(std::uint64_t n, double time, bool capture, bool changed,
-                     std::chrono::steady_clock::time_point since);
+                     std::chrono::steady_clock::time_point since, bool tellsDepth = false);
+    /// @param drawn  of the pictures as they are; else depth alone is drawn first
+    void tellDepth(std::uint64_t n, bool drawn);
     void findWindows(const field::Applied& applied);
     void sendEvents();
     Station& station(int gpu);
+    Station& stationOf(const scene::Window& window);
     void report(net::LogLevel level, const std::string& text);
 
     Options options_;

@@ -31,6 +31,12 @@ Result<render::FrameStatistics> Station::draw(const scene::Window& window, doubl
     return drawn;
 }
 
+Result<std::optional<shadow_fit::DepthSpan>> Station::depthSpan(const scene::Window& window,
+                                                                bool drawn) {
+    context_->makeCurrent();
+    return renderer_->depthSpan(window, drawn);
+}
+
 image::Image Station::read(const scene::Window& window) {
     context_->makeCurrent();
     return renderer_->read(window);

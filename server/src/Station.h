@@ -27,6 +27,7 @@ public:
 
     /// Draws and waits until it is done.
     Result<render::FrameStatistics> draw(const scene::Window& window, double time);
+    Result<std::optional<shadow_fit::DepthSpan>> depthSpan(const scene::Window& window, bool drawn);
     image::Image read(const scene::Window& window);
     /// Shows what was drawn; nothing without a display.
     Result<void> present(const scene::Window& window);

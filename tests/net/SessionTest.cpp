@@ -89,6 +89,29 @@ TEST(Session, WhatTheHooksWriteTravelsWithTheSameFrame) {
     EXPECT_FALSE(hub.logContains("drifted"));
 }
 
+TEST(Session, TheDepthOfAFrameIsToldWithoutWaitingForIt) {
+    std::vector<std::tuple<std::uint64_t, float, float>> told;
+    HubHooks hooks;
+    hooks.tellsDepth = [](const field::Aspect&, std::uint64_t n) { return n % 2 == 0; };
+    hooks.depthSeen = [&](std::uint64_t n, float min, float max) {
+        told.emplace_back(n, min, max);
+    };
+    TestServer near{"a"}, far{"four"};
+    TestHub hub{{}, hooks};
+    Editor editor{hub.types()};
+    hub->connect(near.address());
+    hub->connect(far.address());
+    ASSERT_TRUE(hub->waitForAll({}, eventually()));
+    for (int n = 1; n <= 10; ++n) hub->frame(editor.moveOne(), 0);
+    for (TestServer* server : {&near, &far})
+        ASSERT_TRUE(server->waitUntil(
+            [&](const Seen& s) { return !s.swaps.empty() && s.swaps.back() == 10; }));
+    hub.end();  // the hooks' thread has ended
+    ASSERT_EQ(told.size(), 5U);
+    for (std::size_t i = 0; i < told.size(); ++i)
+        EXPECT_EQ(told[i], std::tuple(2 * (i + 1), 1.0F, 40.0F));
+}
+
 TEST(Session, SwapAndNextFrameGoOutInOneWrite) {
     TestServer server{"left"};
     // No frame is Ready before the next one is prepared, as with an application that is ahead.

@@ -97,6 +97,11 @@ void TestServer::finish(std::uint64_t n) {
     host_->send(Ready{.n = n, .shownFrame = shownFrame_, .shownAt = shownAt_});
 }
 
+void TestServer::tellDepth(std::uint64_t n) {
+    const float near = static_cast<float>(name_.size());
+    host_->send(Depth{.n = n, .min = near, .max = 10 * near});
+}
+
 void TestServer::handle(ServerEvent event) {
     if (std::holds_alternative<Quit>(event)) note([](Seen& s) { s.quit = true; });
     if (std::holds_alternative<ClientJoined>(event)) note([](Seen& s) { ++s.joined; });
@@ -137,13 +142,13 @@ void TestServer::handle(ServerEvent event) {
             image.pixels.assign(std::size_t{700} * 400 * 3, static_cast<std::uint8_t>(frame.n + 1));
             host_->send(std::move(image));
         }
+        if (frame.tellsDepth) tellDepth(frame.n);
         finish(frame.n);
     };
     if (auto* frame = std::get_if<Frame>(&event)) {
         if (!apply(frame->changes)) return;
         if (frame->wantsDepth) {
-            const float near = static_cast<float>(name_.size());
-            host_->send(Depth{.n = frame->n, .min = near, .max = 10 * near});
+            tellDepth(frame->n);
             awaitingFit_ = std::move(*frame);
         } else {
             complete(*frame);

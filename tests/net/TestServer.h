@@ -73,6 +73,7 @@ private:
     void run();
     void handle(ServerEvent event);
     bool apply(const field::ChangeList& changes);
+    void tellDepth(std::uint64_t n);
     void finish(std::uint64_t n);
     template <class Fn>
     void note(Fn&& fn);

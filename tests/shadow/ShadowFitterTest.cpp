@@ -242,12 +242,91 @@ TEST_F(ShadowFitterTest, MapsAreWholePages) {
         int asked, map, page;
     };
     for (const Case& c : {Case{512, 512, 512}, Case{2048, 2048, 1024}, Case{1500, 2048, 1024},
-                          Case{100, 100, 100}, Case{-5, 16, 16}, Case{1 << 20, 16384, 1024}}) {
+                          Case{100, 100, 100}, Case{3, 16, 16}, Case{1 << 20, 16384, 1024}}) {
         for (const ShadowViewport* viewport : viewports) edit(*viewport)->mapSize = c.asked;
         frame();
         EXPECT_EQ(onlyState().mapSize, c.map) << c.asked;
         EXPECT_EQ(onlyState().pageSize, c.page) << c.asked;
     }
+}
+
+TEST_F(ShadowFitterTest, AMapWhoseSizeIsNotSaidIsAsFineAsTheScreen) {
+    struct Case {
+        glm::ivec2 tile;  // two of them side by side are the screen
+        int map;
+    };
+    for (const Case& c : {Case{{100, 100}, 512}, Case{{960, 1080}, 2048}, Case{{1024, 1024}, 1024},
+                          Case{{1024, 1025}, 2048}, Case{{40000, 60000}, 16384}}) {
+        for (const Window* window : windows) edit(*window)->size = c.tile;
+        frame();
+        EXPECT_EQ(onlyState().mapSize, c.map) << c.tile.x << "x" << c.tile.y;
+    }
+}
+
+TEST_F(ShadowFitterTest, ExactDepthIsWaitedForAndHolds) {
+    frame();
+    const math::dmat4 without = onlyState().clipFromWorld[0];
+    for (const ShadowViewport* viewport : viewports) edit(*viewport)->depthRange = DepthUse::exact;
+    frame();
+    EXPECT_TRUE(fitter.wantsDepth());
+    EXPECT_EQ(onlyState().clipFromWorld[0], without) << "as it was, until the depth is known";
+    // The box is 3 to 7 m in front of the eyes: only its front is seen.
+    fitter.fit(session, DepthSpan{.near = 3.0, .far = 3.5});
+    EXPECT_FALSE(fitter.wantsDepth());
+    expectApplied(server.apply(session.commit()));
+    const math::dmat4 within = onlyState().clipFromWorld[0];
+    EXPECT_GT(glm::determinant(math::dmat3{within}), glm::determinant(math::dmat3{without}) * 1.2);
+    EXPECT_TRUE(frame().bytes.empty() || !fitter.wantsDepth()) << "a still scene needs no depth";
+    // Nothing seen at all.
+    aim({1.0, -2.0, -0.6});
+    frame();
+    ASSERT_TRUE(fitter.wantsDepth());
+    fitter.fit(session, std::nullopt);
+    expectApplied(server.apply(session.commit()));
+    EXPECT_TRUE(onlyState().clipFromWorld.empty());
+}
+
+TEST_F(ShadowFitterTest, TheLastFramesDepthHoldsWithAMargin) {
+    for (const ShadowViewport* viewport : viewports)
+        edit(*viewport)->depthRange = DepthUse::previous;
+    frame();
+    EXPECT_FALSE(fitter.wantsDepth());
+    EXPECT_TRUE(fitter.tellsDepth());
+    const math::dmat4 without = onlyState().clipFromWorld[0];
+    fitter.depthSeen(DepthSpan{.near = 3.0, .far = 3.5});
+    frame();  // without any change
+    const math::dmat4 within = onlyState().clipFromWorld[0];
+    EXPECT_NE(within, without);
+    fitter.depthSeen(DepthSpan{.near = 2.9, .far = 3.7});
+    frame();
+    EXPECT_EQ(onlyState().clipFromWorld[0], within) << "within the margin";
+    fitter.depthSeen(DepthSpan{.near = 2.9, .far = 5.0});
+    frame();
+    EXPECT_NE(onlyState().clipFromWorld[0], within);
+}
+
+TEST_F(ShadowFitterTest, APointLightIsASpotThatSeesTheScene) {
+    const auto lamp = makeNode<PointLight>(app, "lamp");
+    edit(sun.node)->addChild(lamp.node);
+    const auto place = makeNode<Transform>(app, "place");
+    edit(root)->addChild(place.node);
+    edit(lamp.core)->beacon = place.node;
+    edit(sun.core)->on = false;
+    edit(place.core)->matrix = math::Affine{.translation = {0.0, 8.0, -4.0}};
+    frame();
+    // All that is seen of the box, 6 m below.
+    ASSERT_EQ(onlyState().clipFromWorld.size(), 1U);
+    for (const double x : {-0.9, 0.9}) {
+        const math::dvec4 clip = onlyState().clipFromWorld[0] * math::dvec4{x, 1.9, -2.1, 1.0};
+        EXPECT_GT(clip.w, 0.0);
+        EXPECT_LE(std::abs(clip.x), clip.w * 1.001);
+        EXPECT_LE(std::abs(clip.y), clip.w * 1.001);
+    }
+    EXPECT_TRUE(warnings.empty());
+    edit(place.core)->matrix = math::Affine{.translation = {0.0, 1.0, -4.0}};  // within the box
+    frame();
+    EXPECT_EQ(warnings.size(), 1U);
+    for (const math::dmat4& map : onlyState().clipFromWorld) EXPECT_TRUE(math::isFinite(map));
 }
 
 TEST_F(ShadowFitterTest, WhatCannotBeDoneIsToldOnce) {

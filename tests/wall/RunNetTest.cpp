@@ -1,6 +1,8 @@
+#include <gnomon/image/Compare.h>
 #include <gnomon/image/Png.h>
 
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "WallTest.h"
@@ -15,6 +17,10 @@ protected:
         return run.wait() == 1 && run.errors().size() == 1 &&
                run.errors()[0].find("exit code 1") != std::string::npos &&
                run.output().find("EGL") != std::string::npos;
+    }
+    /// How many pixels differ by more than that in some channel.
+    static double differing(const image::Image& a, const image::Image& b, int threshold) {
+        return orThrow(image::compare(a, b, threshold)).share * a.width * a.height;
     }
 };
 
@@ -72,6 +78,37 @@ TEST_F(Run, WritesTheWallsPicture) {
         EXPECT_GT(at(78, 2), 220) << x;
         EXPECT_LT(at(78, 0), 80) << x;
     }
+}
+
+TEST_F(Run, FitsShadowsToTheDepthThatAllServersSee) {
+    const auto scene = folder.write("scene.obj",
+                                    "v -9 0 -9\nv 9 0 -9\nv 9 0 9\nv -9 0 9\nf 4 3 2 1\n"
+                                    "v -1 0 -1\nv 1 0 -1\nv 1 2 0\nv -1 2 0\nf 5 6 7 8\n");
+    const std::vector<std::string> sun{"--sun", "0.4,1,0.3"};
+    std::map<std::string, image::Image> pictures;
+    for (const std::string use : {"off", "previous", "exact"}) {
+        const auto wall = folder.write(
+            use + ".toml", text() + "[shadow]\ntechnique = \"lispsm\"\nmap_size = 256\n" +
+                               "depth_range = \"" + use + "\"\n");
+        const auto out = folder.path(use + ".png");
+        std::vector<std::string> words{"run", wall,       "--scene", scene,   "--backend",
+                                       "egl", "--frames", "6",       "--out", out};
+        words.insert(words.end(), sun.begin(), sun.end());
+        Program run{words};
+        if (withoutEgl(run)) GTEST_SKIP() << "no EGL here: " << run.errors()[0];
+        ASSERT_EQ(run.wait(), 0) << testing::PrintToString(run.errors()) << run.output();
+        pictures[use] = orThrow(image::readPng(out));
+        if (use == "previous") continue;  // there is no frame before a single picture
+        const auto one = folder.path(use + "-one.png");
+        words = {"shot", scene, "--wall", wall, "--backend", "egl", "--out", one};
+        words.insert(words.end(), sun.begin(), sun.end());
+        Program shot{words};
+        ASSERT_EQ(shot.wait(), 0) << testing::PrintToString(shot.errors()) << shot.output();
+        EXPECT_LE(differing(pictures[use], orThrow(image::readPng(one)), 2), 1.5) << use;
+    }
+    // The whole ground is in the view's volume, half of it below the picture's edge.
+    EXPECT_GT(differing(pictures["off"], pictures["exact"], 2), 0.5) << "another fit";
+    EXPECT_LT(differing(pictures["previous"], pictures["exact"], 60), 60.0) << "the same shadow";
 }
 
 TEST_F(Run, TilesOfAnotherSizeOnRequest) {

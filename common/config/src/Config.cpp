@@ -19,6 +19,10 @@ std::string_view name(Eye eye) noexcept {
     return "?";
 }
 
+std::string_view name(DepthRange use) noexcept {
+    return use == DepthRange::off ? "off" : use == DepthRange::previous ? "previous" : "exact";
+}
+
 std::string_view name(OnTimeout action) noexcept {
     return action == OnTimeout::drop ? "drop" : "wait";
 }

@@ -134,10 +134,12 @@ std::string describe(const Config& config) {
     std::string text =
         fmt::format("{}: {} on {}\n", config.name, count(config.servers.size(), "server"),
                     count(config.screens.size(), "screen"));
-    text += fmt::format("head at {}, {}, {} m, eyes {:g} mm apart; shadows {}\n\n", head[0],
-                        head[1], head[2], config.user.eyeSeparation * 1e3,
-                        shadow.on ? fmt::format("{}, map {}", shadow.technique, shadow.mapSize)
-                                  : std::string{"off"});
+    text += fmt::format(
+        "head at {}, {}, {} m, eyes {:g} mm apart; shadows {}\n\n", head[0], head[1], head[2],
+        config.user.eyeSeparation * 1e3,
+        shadow.on ? fmt::format("{}, map {}", shadow.technique,
+                                shadow.mapSize ? fmt::to_string(*shadow.mapSize) : "as the screen")
+                  : std::string{"off"});
     text += table(serverRows(config));
     text += "\nfit groups (all tiles and eyes of a screen share its shadow fits)\n";
     text += table(screenRows(config));

@@ -45,6 +45,7 @@ std::string rectExpectation(double value);  ///< a share up to 1, or whole pixel
 inline std::string expectation(const Rule&, bool) { return {}; }
 inline std::string expectation(const Rule&, Eye) { return {}; }
 inline std::string expectation(const Rule&, OnTimeout) { return {}; }
+inline std::string expectation(const Rule&, DepthRange) { return {}; }
 inline std::string expectation(const Rule& rule, int v) { return rule.expectation(double(v)); }
 inline std::string expectation(const Rule& rule, double v) { return rule.expectation(v); }
 inline std::string expectation(const Rule& rule, const std::string& v) {

@@ -77,6 +77,7 @@ struct Schema<Shadow> {
         Field{"range", &Shadow::range,
               Rule{.min = 0, .max = 0.8, .openMin = true, .openMax = true}},
         Field{"quality_mode", &Shadow::qualityMode, anything},
+        Field{"depth_range", &Shadow::depthRange, anything},
     };
 };
 

@@ -21,6 +21,7 @@ std::string tomlText(std::string_view value);
 inline std::string tomlText(const std::string& value) { return tomlText(std::string_view{value}); }
 inline std::string tomlText(Eye value) { return tomlText(name(value)); }
 inline std::string tomlText(OnTimeout value) { return tomlText(name(value)); }
+inline std::string tomlText(DepthRange value) { return tomlText(name(value)); }
 
 namespace detail {
 std::string bracketed(const std::vector<std::string>& parts);

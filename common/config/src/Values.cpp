@@ -59,6 +59,11 @@ std::string read(const Node& node, Eye& value) {
     return readWord(node, std::array{Eye::left, Eye::right, Eye::mono}, value);
 }
 
+std::string read(const Node& node, DepthRange& value) {
+    return readWord(node, std::array{DepthRange::off, DepthRange::previous, DepthRange::exact},
+                    value);
+}
+
 std::string read(const Node& node, OnTimeout& value) {
     return readWord(node, std::array{OnTimeout::drop, OnTimeout::wait}, value);
 }

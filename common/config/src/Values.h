@@ -19,6 +19,7 @@ std::string read(const Node& node, double& value);
 std::string read(const Node& node, std::string& value);
 std::string read(const Node& node, Eye& value);
 std::string read(const Node& node, OnTimeout& value);
+std::string read(const Node& node, DepthRange& value);
 /// Two colours, top and bottom, or one for both.
 std::string read(const Node& node, std::array<Colour, 2>& value);
 /// One number or a list.

@@ -6,7 +6,7 @@
 namespace gnomon::field {
 namespace {
 
-std::string nameOf(Id id) {
+std::string numberOf(Id id) {
     return "container " + std::to_string(id.space()) + ":" + std::to_string(id.counter());
 }
 
@@ -44,11 +44,11 @@ Result<void> Aspect::applyCreations(Reader& from, std::uint32_t count, Applied* 
         if (from.failed()) return refused(from, from.why());
         const TypeInfo* type = types_.find(typeId);
         if (type == nullptr)
-            return refused(from, nameOf(id) + " is of unknown type " + std::to_string(typeId));
+            return refused(from, numberOf(id) + " is of unknown type " + std::to_string(typeId));
         if (!id) return refused(from, "a container with id 0");
         if (!own && space_ != 0 && id.space() == space_)
-            return refused(from, nameOf(id) + " is not the sender's to create");
-        if (containers_.contains(id)) return refused(from, nameOf(id) + " is created twice");
+            return refused(from, numberOf(id) + " is not the sender's to create");
+        if (containers_.contains(id)) return refused(from, numberOf(id) + " is created twice");
         FieldContainer& made = insert(*type, id);
         if (own) nextCounter_ = std::max(nextCounter_, id.counter() + 1);
         if (own && recorded(made)) listCreated(made);
@@ -66,9 +66,9 @@ Result<void> Aspect::applyChanges(Reader& from, std::uint32_t count,
         const auto mask = from.scalar<Mask>();
         if (from.failed()) return refused(from, from.why());
         const auto found = containers_.find(id);
-        if (found == containers_.end()) return refused(from, nameOf(id) + " does not exist");
+        if (found == containers_.end()) return refused(from, numberOf(id) + " does not exist");
         FieldContainer& container = *found->second;
-        const auto where = [&] { return nameOf(id) + " (" + container.type_->name + "): "; };
+        const auto where = [&] { return numberOf(id) + " (" + container.type_->name + "): "; };
         if (!own && space_ != 0 && id.space() == space_)
             return refused(from, where() + "not the sender's to change");
         if ((mask & ~container.type_->allFields()) != 0)
@@ -97,9 +97,9 @@ Result<void> Aspect::applyReleases(Reader& from, std::uint32_t count,
         if (from.failed()) return refused(from, from.why());
         const auto found = containers_.find(id);
         if (found == containers_.end() || found->second->dropped_)
-            return refused(from, nameOf(id) + " does not exist");
+            return refused(from, numberOf(id) + " does not exist");
         if (!own && space_ != 0 && id.space() == space_)
-            return refused(from, nameOf(id) + " is not the sender's to release");
+            return refused(from, numberOf(id) + " is not the sender's to release");
         drop(*found->second, nullptr);
         going.push_back(found->second.get());
     }
@@ -129,7 +129,7 @@ Result<void> Aspect::applyBlock(Reader& from, Applied* applied, bool own) {
     for (FieldContainer* container : going) {
         const Id id = container->id_;
         if (container->references_ > 0)
-            return refused(from, nameOf(id) + " is released but still referred to");
+            return refused(from, numberOf(id) + " is released but still referred to");
         erase(*container);
         if (applied != nullptr) applied->destroyed.push_back(id);
     }

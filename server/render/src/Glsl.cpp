@@ -432,6 +432,27 @@ void main() { outColor = texture(image, vTexCoord); }
 )glsl";
 }
 
+std::string_view depthRange() noexcept {
+    return R"glsl(
+layout(binding = 3) uniform sampler2D depthImage;
+layout(location = 0) uniform ivec4 pixels;
+layout(location = 0) out vec2 outRange;
+
+void main() {
+    ivec2 first = pixels.xy + ivec2(gl_FragCoord.xy) * 32;
+    ivec2 end = min(first + 32, pixels.xy + pixels.zw);
+    vec2 range = vec2(1.0, 0.0);
+    for (int y = first.y; y < end.y; ++y) {
+        for (int x = first.x; x < end.x; ++x) {
+            float depth = texelFetch(depthImage, ivec2(x, y), 0).r;
+            if (depth > 0.0) range = vec2(min(range.x, depth), max(range.y, depth));
+        }
+    }
+    outRange = range;
+}
+)glsl";
+}
+
 std::string_view combine() noexcept {
     // What the foreign shader drew is taken as its own sum over all lights: the share of it that
     // each light would have in ours is darkened by that light's factor, and what is ambient is

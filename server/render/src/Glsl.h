@@ -25,5 +25,7 @@ std::string_view foregroundVertex() noexcept;
 std::string_view foreground() noexcept;
 /// Darkens what a material with shaders of its own drew; after the shadow lookup's text.
 std::string_view combine() noexcept;
+/// Least and greatest depth of each block of 32 by 32 pixels; with coverVertex.
+std::string_view depthRange() noexcept;
 
 }  // namespace gnomon::render::glsl

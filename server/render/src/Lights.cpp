@@ -85,7 +85,10 @@ Lights::Uploaded Lights::upload(const scene::FlatScene& flat, const math::View& 
             return;
         const auto shape = shadow_fit::lightShape(use);
         if (directional != (shape.kind == shadow_fit::LightKind::directional)) return;
-        if (only < 0 && !reaches(shape, planes)) return;
+        if (only < 0 && !reaches(shape, planes)) {
+            ++done.unseen;
+            return;
+        }
         LightBlock block = blockFor(use, shape, origin);
         block.ambient.w = maps != nullptr && maps->count(use.node->id()) > 0 ? 1.0F : 0.0F;
         block.maps = {static_cast<std::uint32_t>(i), 0U, 0U, 0U};

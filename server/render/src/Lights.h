@@ -18,6 +18,7 @@ public:
 
     struct Uploaded {
         int count = 0;
+        int unseen = 0;       ///< others reach nothing that is seen
         int directional = 0;  ///< the first of them
         bool scoped = false;  ///< some surface is not lit by all of them
         shadow::ShadowMaps::Arranged maps = {};

@@ -114,6 +114,12 @@ GLuint Programs::foreground() {
     return foreground_.id();
 }
 
+GLuint Programs::depthRange() {
+    if (!depthRange_)
+        depthRange_ = build("depth range", "", {glsl::coverVertex()}, {glsl::depthRange()});
+    return depthRange_.id();
+}
+
 GLuint Programs::combine(const shadow::ShadowMaps::Arranged& maps) {
     gl::Program& program = combine_[{maps.mapsPerLight, maps.perspective}];
     if (program) return program.id();

@@ -53,6 +53,7 @@ public:
     GLuint mesh(const Variant& variant);
     GLuint background();
     GLuint foreground();
+    GLuint depthRange();
     GLuint combine(const shadow::ShadowMaps::Arranged& maps);
 
     /// A material's own program, with the places of the uniforms it declares. id 0: it does not
@@ -76,6 +77,7 @@ private:
     std::map<Variant, gl::Program> meshes_;
     gl::Program background_;
     gl::Program foreground_;
+    gl::Program depthRange_;
     std::map<std::pair<int, bool>, gl::Program> combine_;  ///< by maps per light and perspective
     std::unordered_map<field::Id, Foreign> foreign_;
 };

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "DepthReducer.h"
 #include "Lights.h"
 #include "Overlay.h"
 #include "SceneDrawer.h"
@@ -40,7 +41,8 @@ struct Renderer::Parts {
           textures{gl},
           maps{gl},
           lights{gl},
-          overlay{gl, programs, textures} {}
+          overlay{gl, programs, textures},
+          reducer{gl, programs} {}
 
     struct Seen {
         scene::CameraView camera = {};
@@ -63,6 +65,9 @@ struct Renderer::Parts {
     shadow::ShadowStatistics prepareMaps(const Seen& seen, const scene::Viewport& viewport);
     void combine(const Target& target, const Seen& seen,
                  const shadow::ShadowMaps::Arranged& arranged);
+    Result<std::optional<shadow_fit::DepthSpan>> depthSpan(const scene::Window& window,
+                                                           const scene::ShadowViewport& viewport,
+                                                           bool drawn);
     double lap(Clock::time_point& since) const;
 
     gl::Context& context;
@@ -75,6 +80,7 @@ struct Renderer::Parts {
     shadow::ShadowMaps maps;
     Lights lights;
     Overlay overlay;
+    DepthReducer reducer;
     std::map<field::Id, Target> targets;
     struct Drawer {
         std::unique_ptr<SceneDrawer> drawer = {};
@@ -256,6 +262,7 @@ Result<void> Renderer::Parts::drawViewport(const scene::Window& window,
     const auto lit = lights.upload(drawer.flat(), seen.camera.view, seen.origin, viewport,
                                    shadowed ? &maps : nullptr);
     done.lights += lit.count;
+    done.lightsUnseen += lit.unseen;
     done.lightsLeftOut = static_cast<int>(drawer.flat().lightsLeftOut());
     if (drawer.flat().lightsLeftOut() > 0)
         warnOnce(std::to_string(drawer.flat().lightsLeftOut()) +
@@ -297,6 +304,69 @@ Result<void> Renderer::Parts::drawViewport(const scene::Window& window,
     gl.Disable(GL_SCISSOR_TEST);
     done.overlayMs += lap(clock);
     return {};
+}
+
+Result<std::optional<shadow_fit::DepthSpan>> Renderer::Parts::depthSpan(
+    const scene::Window& window, const scene::ShadowViewport& viewport, bool drawn) {
+    auto looked = look(window, viewport);
+    if (!looked) return tl::unexpected{std::move(looked).error()};
+    const Seen& seen = *looked;
+    auto made = target(window, seen.drawer->batches().hasForeign());
+    if (!made) return tl::unexpected{std::move(made).error()};
+    const Target& target = **made;
+    const math::View& view = seen.camera.view;
+    const SceneDrawer::ColorPass pass{.clipFromOrigin = clipFromOrigin(view, seen.origin),
+                                      .clipFromWorld = view.clipFromWorld(),
+                                      .eyeFromWorld = view.eyeFromWorld,
+                                      .eyeWorld = view.eyeWorld()};
+    if (!drawn) {
+        seen.drawer->useOrigin(seen.origin);
+        gl.BindFramebuffer(GL_FRAMEBUFFER, target.drawn());
+        gl.Viewport(seen.pixels.x, seen.pixels.y, seen.pixels.width, seen.pixels.height);
+        gl.Scissor(seen.pixels.x, seen.pixels.y, seen.pixels.width, seen.pixels.height);
+        gl.Enable(GL_SCISSOR_TEST);
+        gl.Enable(GL_DEPTH_TEST);
+        gl.DepthFunc(GL_GREATER);
+        gl.DepthMask(GL_TRUE);
+        gl.ClearDepthf(0.0F);
+        gl.Clear(GLbitfield{GL_DEPTH_BUFFER_BIT});
+        gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+        seen.drawer->drawDepth(pass);
+        gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    }
+    auto span = seen.drawer->blendedDepth(pass);
+    if (const auto depths = reducer.reduce(target.depth(gl), seen.pixels)) {
+        // From clip depth d = (p z + q) / (r z + s) to -z.
+        const math::dmat4& m = view.clipFromEye;
+        const auto depthOf = [&](double d) {
+            return -(m[3][2] - d * m[3][3]) / (d * m[2][3] - m[2][2]);
+        };
+        const shadow_fit::DepthSpan opaque{.near = depthOf(depths->second),
+                                           .far = depthOf(depths->first)};
+        if (!span) span = opaque;
+        span = {.near = std::min(span->near, opaque.near), .far = std::max(span->far, opaque.far)};
+    }
+    if (span && !(std::isfinite(span->near) && std::isfinite(span->far))) span.reset();
+    if (span) span->near = std::max(span->near, 0.0);
+    return span;
+}
+
+Result<std::optional<shadow_fit::DepthSpan>> Renderer::depthSpan(const scene::Window& window,
+                                                                 bool drawn) {
+    std::optional<shadow_fit::DepthSpan> all;
+    for (const auto& ref : window.viewports) {
+        const auto* viewport =
+            dynamic_cast<const scene::ShadowViewport*>(parts_->scene.find(ref.id));
+        if (viewport == nullptr || !viewport->shadowOn ||
+            viewport->depthRange == scene::DepthUse::off)
+            continue;
+        auto span = parts_->depthSpan(window, *viewport, drawn);
+        if (!span) return tl::unexpected{std::move(span).error()};
+        if (!*span) continue;
+        if (!all) all = *span;
+        all = {.near = std::min(all->near, (*span)->near), .far = std::max(all->far, (*span)->far)};
+    }
+    return all;
 }
 
 shadow::ShadowStatistics Renderer::Parts::prepareMaps(const Seen& seen,

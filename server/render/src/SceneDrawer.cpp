@@ -292,6 +292,35 @@ void SceneDrawer::drawFactor(const ColorPass& pass) {
         false);
 }
 
+void SceneDrawer::drawDepth(const ColorPass& pass) {
+    gather(pass, false);
+    const auto states = batches_.batches();
+    // A foreign material's geometry is drawn as it stands: its own vertex shader is not asked.
+    std::vector<BatchState> plain(states.begin(), states.end());
+    for (BatchState& state : plain) state.foreign = nullptr;
+    flush(
+        plain, [&](const BatchState& state) { useDepth(state, pass.clipFromOrigin); }, true);
+}
+
+std::optional<shadow_fit::DepthSpan> SceneDrawer::blendedDepth(const ColorPass& pass) {
+    std::optional<shadow_fit::DepthSpan> span;
+    const auto planes = math::frustumPlanes(pass.clipFromWorld);
+    const auto states = batches_.batches();
+    const auto drawables = batches_.drawables();
+    chunks_.tree().visit(planes, [&](std::uint32_t use, bool) {
+        const Drawable& drawable = drawables[use];
+        if (drawable.batch == Drawable::none || !states[drawable.batch].blend) return;
+        const math::Box& box = chunks_.bounds(use);
+        for (int i = 0; i < 8; ++i) {
+            const double depth = -(pass.eyeFromWorld * math::dvec4{box.corner(i), 1.0}).z;
+            if (!span) span = {.near = depth, .far = depth};
+            span->near = std::min(span->near, depth);
+            span->far = std::max(span->far, depth);
+        }
+    });
+    return span;
+}
+
 std::span<const math::dvec3> SceneDrawer::seenBy(const math::View& view) {
     const math::dmat4 clipFromWorld = view.clipFromWorld();
     if (seenFrom_ != clipFromWorld) {
@@ -316,23 +345,23 @@ shadow::CasterSource::Drawn SceneDrawer::drawCasters(const Pass& pass) {
         done.triangles += drawable.command.count / 3;
     });
     flush(
-        states,
-        [&](const BatchState& state) {
-            const bool masked = (state.features & Variant::alphaMask) != 0;
-            // An opaque caster reads positions alone, whatever else its mesh has.
-            const GLuint program =
-                programs_.mesh({.pass = Variant::Pass::depth,
-                                .format = masked ? state.format & (hasTexCoords | hasColors) : 0U,
-                                .features = state.features});
-            gl_.UseProgram(program);
-            gl_.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, &pass.clipFromOrigin[0][0]);
-            if (masked) {
-                batches_.bindMaterial(state.material);
-                gl_.BindTextures(0, 3, state.textures.data());
-            }
-        },
-        true);
+        states, [&](const BatchState& state) { useDepth(state, pass.clipFromOrigin); }, true);
     return done;
+}
+
+void SceneDrawer::useDepth(const BatchState& state, const math::mat4& clipFromOrigin) {
+    const bool masked = (state.features & Variant::alphaMask) != 0;
+    // What is opaque reads positions alone, whatever else its mesh has.
+    const GLuint program =
+        programs_.mesh({.pass = Variant::Pass::depth,
+                        .format = masked ? state.format & (hasTexCoords | hasColors) : 0U,
+                        .features = state.features & (Variant::alphaMask | Variant::diffuseMap)});
+    gl_.UseProgram(program);
+    gl_.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, &clipFromOrigin[0][0]);
+    if (masked) {
+        batches_.bindMaterial(state.material);
+        gl_.BindTextures(0, 3, state.textures.data());
+    }
 }
 
 }  // namespace gnomon::render

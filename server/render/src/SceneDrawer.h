@@ -57,6 +57,11 @@ public:
     PassStatistics drawBlended(const ColorPass& pass);
     /// The first light's factor on everything opaque.
     void drawFactor(const ColorPass& pass);
+    /// Depth alone of everything opaque or masked.
+    void drawDepth(const ColorPass& pass);
+    /// Depths in eye space between which blended chunks may be seen, by their boxes; nothing
+    /// where there are none.
+    std::optional<shadow_fit::DepthSpan> blendedDepth(const ColorPass& pass);
 
     Drawn drawCasters(const Pass& pass) override;
 
@@ -71,6 +76,7 @@ private:
     void flush(std::span<const BatchState> states,
                const std::function<void(const BatchState&)>& use, bool positionsOnly);
     void setFaces(const BatchState& state);
+    void useDepth(const BatchState& state, const math::mat4& clipFromOrigin);
     void useSurface(const BatchState& state, const ColorPass& pass);
     void drawForeign(const BatchState& state, const std::vector<Item>& items,
                      const ColorPass& pass);

@@ -81,6 +81,14 @@ void Target::resolve(const gl::Api& gl) const {
                             shape_.size.x, shape_.size.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
+GLuint Target::depth(const gl::Api& gl) const {
+    if (samples_)
+        gl.BlitNamedFramebuffer(samples_.id(), resolved_.id(), 0, 0, shape_.size.x, shape_.size.y,
+                                0, 0, shape_.size.x, shape_.size.y, GL_DEPTH_BUFFER_BIT,
+                                GL_NEAREST);
+    return depth_.id();
+}
+
 GLuint Target::depthCopy(const gl::Api& gl) const {
     gl.BlitNamedFramebuffer(drawn(), copy_.id(), 0, 0, shape_.size.x, shape_.size.y, 0, 0,
                             shape_.size.x, shape_.size.y,

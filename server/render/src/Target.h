@@ -26,6 +26,8 @@ public:
     GLuint color() const noexcept { return color_.id(); }
     /// Copies multisampled pixels into the picture; nothing without multisampling.
     void resolve(const gl::Api& gl) const;
+    /// The depth of what was drawn, as a texture that is not multisampled.
+    GLuint depth(const gl::Api& gl) const;
     /// A texture with a copy of the depth, for passes that read it.
     GLuint depthCopy(const gl::Api& gl) const;
 

@@ -19,7 +19,7 @@ bool isFinite(const dvec3& p) {
 
 /// Planes around what is seen and lit.
 struct Volume {
-    std::array<Plane, 16> planes = {};
+    std::array<Plane, 18> planes = {};
     std::size_t count = 0;
     void add(const Plane& plane) {
         // A side without a normal (an infinite far plane) cuts nothing.
@@ -28,9 +28,19 @@ struct Volume {
     std::span<const Plane> all() const { return std::span{planes}.first(count); }
 };
 
-Volume volumeOf(const math::View& view, const LightShape* light) {
+Volume volumeOf(const math::View& view, const LightShape* light,
+                const std::optional<DepthSpan>& depth) {
     Volume volume;
     for (const Plane& plane : math::frustumPlanes(view.clipFromWorld())) volume.add(plane);
+    if (depth) {
+        // World to eye depth: the axis is the third row, with the eye looking along -z.
+        const math::dvec4 row = glm::transpose(view.eyeFromWorld)[2];
+        const double scale = glm::length(dvec3{row});
+        if (scale > 0.0) {
+            volume.add({-dvec3{row} / scale, (-row.w - depth->near) / scale});
+            volume.add({dvec3{row} / scale, (row.w + depth->far) / scale});
+        }
+    }
     if (light == nullptr || light->kind == LightKind::directional) return volume;
     if (light->range > 0.0) {
         for (int axis = 0; axis < 3; ++axis) {
@@ -65,9 +75,10 @@ void Receivers::addPiece(std::span<const dvec3> points, int flat) {
     if (piece.count > 0) pieces_.push_back(piece);
 }
 
-void Receivers::add(const math::View& view, const LightShape* light, const math::BoxTree& boxes) {
+void Receivers::add(const math::View& view, const LightShape* light, const math::BoxTree& boxes,
+                    const std::optional<DepthSpan>& depth) {
     if (!math::isFinite(view.clipFromWorld())) return;
-    const Volume volume = volumeOf(view, light);
+    const Volume volume = volumeOf(view, light, depth);
     const dvec3 eye = view.eyeWorld();
     // What looks as small as this, with all that is in it, is taken as it stands.
     const auto small = [&](const math::Box& box) {

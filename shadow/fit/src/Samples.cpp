@@ -34,7 +34,7 @@ double endOf(std::vector<Passage>& passages, double length, double depth) {
 }  // namespace
 
 std::vector<Sample> samplePicture(std::span<const math::View> views, const Boxes& boxes,
-                                  int perSide) {
+                                  int perSide, const std::optional<DepthSpan>& depth) {
     constexpr double opaque = std::numeric_limits<double>::infinity();
     std::vector<Sample> samples;
     std::vector<Passage> passages;
@@ -62,7 +62,10 @@ std::vector<Sample> samplePicture(std::span<const math::View> views, const Boxes
             const double chance = std::fmod((i + 0.5) * 0.6180339887498949, 1.0);
             const double t = endOf(passages, glm::length(direction), -std::log(1.0 - chance));
             const dvec3 at = from + direction * t;
-            if (t <= 1.0 && isFinite(at)) samples.push_back({.world = at});
+            if (!(t <= 1.0) || !isFinite(at)) continue;
+            const double far = -(view.eyeFromWorld * math::dvec4{at, 1.0}).z;
+            if (depth && !(far >= depth->near && far <= depth->far)) continue;
+            samples.push_back({.world = at});
         }
     }
     return samples;

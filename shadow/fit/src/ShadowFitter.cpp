@@ -28,12 +28,28 @@ struct ShadowFitter::Scene {
 
 struct ShadowFitter::Group {
     field::Id id = {};
-    const scene::ShadowViewport* viewport = nullptr;
+    field::Id viewport = {};
+    field::Id root = {};
     std::vector<math::View> views = {};
+    glm::ivec2 pixels{0};  ///< of the whole screen
+};
+
+/// What the fits of a group's lights have in common.
+struct ShadowFitter::Plan {
+    const scene::ShadowViewport& viewport;
+    const Scene& seen;
+    const FitInfo& info;
+    std::string filter = {};
+    std::optional<DepthSpan> depth = {};
+    std::vector<Sample> samples = {};
+    math::dvec3 origin{0.0};
+    int mapSize = 0, pageSize = 0;
 };
 
 ShadowFitter::ShadowFitter(std::function<void(std::string)> warn) : warn_{std::move(warn)} {}
 ShadowFitter::~ShadowFitter() = default;
+
+bool ShadowFitter::wantsDepth() const noexcept { return !waiting_.empty(); }
 
 void ShadowFitter::warnOnce(const std::string& text) {
     if (std::find(warned_.begin(), warned_.end(), text) != warned_.end()) return;
@@ -63,25 +79,76 @@ LightShape lightShape(const scene::FlatScene::LightUse& use) {
 }
 
 void ShadowFitter::update(field::Aspect& session, const field::Applied& applied) {
-    if (applied.empty() && round_ > 0) return;
+    if (applied.empty() && round_ > 0 && !depthChanged_) return;
+    depthChanged_ = false;
     findWindows(session, applied);
     ++round_;
     std::vector<Group> groups;
     collectGroups(session, groups);
     for (const Group& group : groups) {
-        auto& scene = scenes_[group.viewport->root->id];
+        auto& scene = scenes_[group.root];
         if (!scene) scene = std::make_unique<Scene>(session);
     }
     std::erase_if(scenes_, [&](const auto& entry) {
         return std::none_of(groups.begin(), groups.end(),
-                            [&](const Group& g) { return g.viewport->root->id == entry.first; });
+                            [&](const Group& g) { return g.root == entry.first; });
     });
     for (auto& [root, scene] : scenes_) {
         scene->flat.update(scene::Ref<scene::Node>{root}, {}, applied);
         scene->clusters.update(scene->flat, applied);
     }
-    for (const Group& group : groups) fit(session, group);
+    waiting_.clear();
+    previous_ = false;
+    for (Group& group : groups) {
+        const auto* viewport = session.get(scene::Ref<scene::ShadowViewport>{group.viewport});
+        const bool previous = viewport->depthRange == scene::DepthUse::previous;
+        previous_ = previous_ || previous;
+        const bool exact = viewport->depthRange == scene::DepthUse::exact;
+        if (exact && keep(group)) {
+            waiting_.push_back(std::move(group));
+            continue;
+        }
+        fit(session, group, previous ? lately_ : std::nullopt);
+        if (exact) waiting_.push_back(std::move(group));
+    }
     dropUnused(session);
+}
+
+void ShadowFitter::fit(field::Aspect& session, const std::optional<DepthSpan>& seen) {
+    // Rounding, and samples of a pixel that see a little more than its middle.
+    constexpr double margin = 0.01;
+    // Nothing seen, nothing to shadow: any span without anything in it.
+    DepthSpan span{.near = 0.0, .far = -1.0};
+    if (seen) span = {.near = seen->near * (1.0 - margin), .far = seen->far * (1.0 + margin)};
+    ++round_;
+    for (auto& [key, held] : states_)
+        if (std::none_of(waiting_.begin(), waiting_.end(),
+                         [&](const Group& group) { return group.id == key.group; }))
+            held.used = round_;
+    for (const Group& group : std::exchange(waiting_, {})) fit(session, group, span);
+    dropUnused(session);
+}
+
+void ShadowFitter::depthSeen(const std::optional<DepthSpan>& seen) {
+    // The view moves on: what is a little nearer or farther is shadowed, too.
+    constexpr double margin = 1.25;
+    if (!seen) return;
+    const bool holds = lately_ && lately_->near <= seen->near && lately_->far >= seen->far &&
+                       lately_->near * margin * margin >= seen->near &&
+                       lately_->far <= seen->far * margin * margin;
+    if (holds) return;
+    lately_ = {.near = seen->near / margin, .far = seen->far * margin};
+    depthChanged_ = true;
+}
+
+bool ShadowFitter::keep(const Group& group) {
+    bool any = false;
+    for (auto& [key, held] : states_) {
+        if (key.group != group.id) continue;
+        held.used = round_;
+        any = true;
+    }
+    return any;
 }
 
 void ShadowFitter::findWindows(const field::Aspect& session, const field::Applied& applied) {
@@ -107,12 +174,20 @@ void ShadowFitter::collectGroups(const field::Aspect& session, std::vector<Group
             const auto camera = scene::cameraView(session, viewport->camera, aspect);
             if (!camera) continue;
             auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) {
-                return g.id == camera->group.id && g.viewport->root == viewport->root;
+                return g.id == camera->group.id && g.root == viewport->root->id;
             });
             if (group == groups.end()) {
-                groups.push_back({.id = camera->group.id, .viewport = viewport});
+                groups.push_back({.id = camera->group.id,
+                                  .viewport = viewport->id(),
+                                  .root = viewport->root->id});
                 group = groups.end() - 1;
             }
+            const auto whole = [](int part, double share) {
+                return static_cast<int>(std::lround(std::min(part / share, 65536.0)));
+            };
+            group->pixels =
+                glm::max(group->pixels, glm::ivec2{whole(pixels.width, camera->part.width),
+                                                   whole(pixels.height, camera->part.height)});
             // Tiles of one eye share their whole view.
             const bool known =
                 std::any_of(group->views.begin(), group->views.end(), [&](const math::View& v) {
@@ -124,82 +199,101 @@ void ShadowFitter::collectGroups(const field::Aspect& session, std::vector<Group
     }
 }
 
-void ShadowFitter::fit(field::Aspect& session, const Group& group) {
-    const auto technique = parseTechnique(group.viewport->technique.get(), filterNames);
+void ShadowFitter::fit(field::Aspect& session, const Group& group,
+                       const std::optional<DepthSpan>& depth) {
+    const auto& viewport = *session.get(scene::Ref<scene::ShadowViewport>{group.viewport});
+    auto technique = parseTechnique(viewport.technique.get(), filterNames);
     if (!technique) return warnOnce(technique.error().what + "; shadows are off");
     if (technique->none()) return;
     const auto& infos = fits();
     const FitInfo& info = *std::find_if(infos.begin(), infos.end(),
                                         [&](const FitInfo& i) { return i.name == technique->fit; });
-
-    const Scene& seen = *scenes_.at(group.viewport->root->id);
-    const scene::FlatScene& flat = seen.flat;
-    std::vector<Sample> samples;
-    if (info.sampled) samples = samplePicture(group.views, seen.clusters.boxes(), samplesPerSide);
+    Plan plan{.viewport = viewport,
+              .seen = *scenes_.at(group.root),
+              .info = info,
+              .filter = std::move(technique->filter),
+              .depth = depth};
+    if (info.sampled)
+        plan.samples =
+            samplePicture(group.views, plan.seen.clusters.boxes(), samplesPerSide, depth);
     math::dvec3 eye{0.0};
     for (const math::View& view : group.views)
         eye += view.eyeWorld() / static_cast<double>(group.views.size());
-    math::dvec3 origin{0.0};
-    for (int i = 0; i < 3; ++i) origin[i] = std::round(eye[i] / originStep) * originStep;
-
-    const auto& wanted = group.viewport->lightNodes;
-    const int mapSize = std::clamp(group.viewport->mapSize.get(), 16, 16384);
+    for (int i = 0; i < 3; ++i) plan.origin[i] = std::round(eye[i] / originStep) * originStep;
+    const int asked =
+        viewport.mapSize > 0 ? viewport.mapSize.get() : scene::mapSizeFor(group.pixels);
+    const int mapSize = std::clamp(asked, 16, 16384);
     // Whole pages: a map that is not a multiple is raised to one.
-    const int page = std::min(pageTexels, mapSize);
-    const int rounded = (mapSize + page - 1) / page * page;
-    for (const auto& use : flat.lights()) {
+    plan.pageSize = std::min(pageTexels, mapSize);
+    plan.mapSize = (mapSize + plan.pageSize - 1) / plan.pageSize * plan.pageSize;
+
+    const auto& wanted = viewport.lightNodes;
+    for (const auto& use : plan.seen.flat.lights()) {
         if (!use.light->on || !use.light->castsShadow) continue;
-        if (!wanted.empty() && std::none_of(wanted.begin(), wanted.end(), [&](const auto& ref) {
+        if (wanted.empty() || std::any_of(wanted.begin(), wanted.end(), [&](const auto& ref) {
                 return ref.id == use.node->id();
             }))
-            continue;
-        const LightShape light = lightShape(use);
-        if (light.kind == LightKind::point) {
-            warnOnce("point lights cast no shadow with technique \"" + technique->fit + "\"");
-            continue;
-        }
-        Held& held = states_[{.light = use.node->id(), .group = group.id}];
-        held.used = round_;
-        const auto* state = session.get(scene::Ref<scene::ShadowState>{held.state});
-        if (state == nullptr) {
-            state = &session.create<scene::ShadowState>();
-            held.state = state->id();
-        }
+            fit(session, group, use, plan);
+    }
+}
+
+void ShadowFitter::fit(field::Aspect& session, const Group& group,
+                       const scene::FlatScene::LightUse& use, const Plan& plan) {
+    Held& held = states_[{.light = use.node->id(), .group = group.id}];
+    held.used = round_;
+    const auto* state = session.get(scene::Ref<scene::ShadowState>{held.state});
+    if (state == nullptr) {
+        state = &session.create<scene::ShadowState>();
+        held.state = state->id();
+    }
+    const Boxes boxes = plan.seen.clusters.boxes();
+    LightShape light = lightShape(use);
+    const auto receive = [&] {
         receivers_.clear();
         for (const math::View& view : group.views)
-            receivers_.add(view, &light, seen.clusters.boxes().tree);
-        const math::BoxTree& casters = seen.clusters.boxes().tree;
-        if (info.shadowedOnly)
-            receivers_.dropUnshadowed(light, casters);
-        else if (!receivers_.mayBeShadowed(light, casters))
-            receivers_.clear();
-        weigh(samples, light, seen.clusters.boxes());
-        Fitted fitted = info.fit({.light = light,
-                                  .views = group.views,
-                                  .receivers = receivers_,
-                                  .samples = samples,
-                                  .scene = flat.bounds(),
-                                  .mapSize = rounded,
-                                  .settings = {.range = group.viewport->range}});
-        std::vector<math::dmat4> maps;
-        for (const FittedMap& map : fitted.maps) {
-            if (!math::isFinite(map.clipFromWorld)) {
-                fitted.degenerate = true;
-                maps.clear();
-                break;
-            }
-            maps.push_back(map.clipFromWorld);
+            receivers_.add(view, &light, boxes.tree, plan.depth);
+    };
+    receive();
+    if (light.kind == LightKind::point && !receivers_.empty()) {
+        light = spotThatSees(light, receivers_.points());
+        if (light.halfAngle == widestOfPoint) {
+            warnOnce(
+                "a point light amid what it lights: its shadow map shows 150 degrees of it, "
+                "the rest is lit");
+            receive();
         }
-        auto e = edit(*state);
-        e->light = *use.node;
-        e->group = field::WeakRef<field::FieldContainer>{group.id};
-        e->filter = technique->filter;
-        e->mapSize = fitted.mapSize > 0 ? fitted.mapSize : rounded;
-        e->pageSize = std::min(page, e->mapSize.get());
-        e->origin = origin;
-        e->degenerate = fitted.degenerate;
-        e->clipFromWorld.assign(std::move(maps));
     }
+    if (plan.info.shadowedOnly)
+        receivers_.dropUnshadowed(light, boxes.tree);
+    else if (!receivers_.mayBeShadowed(light, boxes.tree))
+        receivers_.clear();
+    auto samples = plan.samples;
+    weigh(samples, light, boxes);
+    Fitted fitted = plan.info.fit({.light = light,
+                                   .views = group.views,
+                                   .receivers = receivers_,
+                                   .samples = samples,
+                                   .scene = plan.seen.flat.bounds(),
+                                   .mapSize = plan.mapSize,
+                                   .settings = {.range = plan.viewport.range}});
+    std::vector<math::dmat4> maps;
+    for (const FittedMap& map : fitted.maps) {
+        if (!math::isFinite(map.clipFromWorld)) {
+            fitted.degenerate = true;
+            maps.clear();
+            break;
+        }
+        maps.push_back(map.clipFromWorld);
+    }
+    auto e = edit(*state);
+    e->light = *use.node;
+    e->group = field::WeakRef<field::FieldContainer>{group.id};
+    e->filter = plan.filter;
+    e->mapSize = fitted.mapSize > 0 ? fitted.mapSize : plan.mapSize;
+    e->pageSize = std::min(plan.pageSize, e->mapSize.get());
+    e->origin = plan.origin;
+    e->degenerate = fitted.degenerate;
+    e->clipFromWorld.assign(std::move(maps));
 }
 
 void ShadowFitter::dropUnused(field::Aspect& session) {

@@ -29,6 +29,9 @@ struct WallContainers {
 Result<WallContainers> buildWall(field::Aspect& aspect, const config::Config& config,
                                  field::Ref<scene::Node> root);
 
+/// What a config says of shadows, put into a viewport.
+void applyShadow(const config::Shadow& from, scene::ShadowViewport& viewport);
+
 /// One window that shows a whole screen, bezels included, in one piece: one viewport an eye, side
 /// by side, each with the pixels of the wall's canvas. The window bears the name @p server.
 /// @pre screen < config.screens.size(), at least one eye

@@ -87,7 +87,8 @@ struct Frame {
     static constexpr std::uint32_t capture = 1;     ///< send Images before Ready
     static constexpr std::uint32_t digest = 2;      ///< send Digest before Ready
     static constexpr std::uint32_t wantsDepth = 4;  ///< send Depth, wait for Fit
-    static constexpr std::uint32_t knownFlags = 7;
+    static constexpr std::uint32_t tellsDepth = 8;  ///< send Depth before Ready, do not wait
+    static constexpr std::uint32_t knownFlags = 15;
     std::uint64_t n = 0;
     double time = 0;  ///< seconds, the application's clock
     std::uint32_t flags = 0;

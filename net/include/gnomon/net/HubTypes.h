@@ -43,6 +43,11 @@ struct HubHooks {
     /// With the merged range, metres of view-space depth (min > max: nothing seen). May edit as
     /// prepare may, but not name payloads.
     std::function<void(field::Aspect& session, std::uint64_t frame, float min, float max)> fit = {};
+    /// After prepare: shall the servers tell the depth range of the frame once it is rendered?
+    std::function<bool(const field::Aspect& session, std::uint64_t frame)> tellsDepth = {};
+    /// The merged range of a frame that was swapped, as in fit; only where all who made it Ready
+    /// in time told theirs.
+    std::function<void(std::uint64_t frame, float min, float max)> depthSeen = {};
     std::function<void(LogLevel level, const std::string& text)> log = {};
 };
 

@@ -46,6 +46,7 @@ struct Frame {
     bool capture = false;     ///< send the Images of this frame, then Ready
     bool digest = false;      ///< send Digest{n, aspect.digest()}, then Ready
     bool wantsDepth = false;  ///< send Depth{n}, and wait for Fit{n} before rendering with it
+    bool tellsDepth = false;  ///< send Depth{n}, as it was rendered, then Ready
     field::ChangeList changes = {};
 };
 

@@ -60,7 +60,7 @@ struct Depth {
 
 /// What rendering one frame took. Times in milliseconds, glFinish included.
 struct RenderStats {
-    static constexpr std::size_t wireBytes = 68;
+    static constexpr std::size_t wireBytes = 80;
     float renderMs = 0;  ///< all of it
     float applyMs = 0;   ///< taking in the change list
     float shadowMs = 0;  ///< shadow map passes
@@ -69,7 +69,10 @@ struct RenderStats {
     std::uint32_t drawCalls = 0;
     std::uint32_t pagesDrawn = 0;
     std::uint32_t pagesKept = 0;
-    std::uint32_t degenerate = 0;  ///< fits that fell back
+    std::uint32_t pagesUnseen = 0;  ///< that this server's view does not look up
+    std::uint32_t chunksCulled = 0;
+    std::uint32_t lightsUnseen = 0;  ///< that reach nothing it sees
+    std::uint32_t degenerate = 0;    ///< fits that fell back
     std::uint64_t mapTexels = 0;
     std::uint64_t mapBytes = 0;
     std::uint64_t gpuBytes = 0;
@@ -85,6 +88,9 @@ struct RenderStats {
         io(self.drawCalls);
         io(self.pagesDrawn);
         io(self.pagesKept);
+        io(self.pagesUnseen);
+        io(self.chunksCulled);
+        io(self.lightsUnseen);
         io(self.degenerate);
         io(self.mapTexels);
         io(self.mapBytes);

@@ -24,9 +24,11 @@ using Cells = std::array<int, 2>;      ///< x then y: columns and rows, or width
 
 enum class Eye : std::uint8_t { mono, left, right };
 enum class OnTimeout : std::uint8_t { drop, wait };
+enum class DepthRange : std::uint8_t { off, previous, exact };
 
 std::string_view name(Eye eye) noexcept;
 std::string_view name(OnTimeout action) noexcept;
+std::string_view name(DepthRange use) noexcept;
 
 /// Port of a server on another machine unless the file says otherwise.
 inline constexpr int defaultPort = 7430;
@@ -50,13 +52,15 @@ struct Sync {
 
 struct Shadow {
     bool on = true;
-    std::string technique = "std";               ///< FIT[+FILTER] or a single word
-    int mapSize = 1024;                          ///< texels per side
+    std::string technique = "std";  ///< FIT[+FILTER] or a single word
+    /// Texels per side. Absent: 512, raised to what fits into what the screen shows.
+    std::optional<int> mapSize = {};
     std::array<double, 4> color = {0, 0, 0, 1};  ///< sRGB, and how much of it
     std::optional<double> offsetBias = {};       ///< absent: derived from the map
     std::optional<double> offsetFactor = {};     ///< absent: derived from the map
     double range = 0.3;  ///< share of the view in front of the focus line, trapezoidal maps only
     bool qualityMode = false;
+    DepthRange depthRange = DepthRange::off;  ///< how fits learn how deep the view really is
     Origin origin = {};
     bool operator==(const Shadow&) const = default;
 };

@@ -3,6 +3,8 @@
 #include <gnomon/scene/Camera.h>
 #include <gnomon/scene/Material.h>
 
+#include <algorithm>
+
 namespace gnomon::scene {
 
 /// What is seen where nothing is drawn. Colours are linear RGB.
@@ -78,6 +80,14 @@ public:
     static constexpr auto fields() { return viewportFields<PlainViewport>(); }
 };
 
+/// How fits learn how deep the view really is: what is hidden needs no shadow map.
+enum class DepthUse {
+    off,       ///< from bounding boxes alone
+    previous,  ///< as it was in the last frame, with a margin
+    exact,     ///< a depth pass first, in every frame that changes, on all servers
+    last = exact
+};
+
 /// With shadows: put in place of a plain one, everything has a default.
 /// Source: Nico Hempe. Diploma thesis on the OpenSG ShadowViewport. 2005, chapter 9.3.
 class ShadowViewport final : public Container<ShadowViewport, Viewport> {
@@ -86,10 +96,12 @@ public:
     Field<bool> shadowOn{true};
     /// `FIT[+FILTER]`, see shadow/Registry.h; "none" is the plain picture.
     Field<std::string> technique{"std"};
-    Field<std::int32_t> mapSize{512};  ///< texels a side; larger maps are drawn in pages
+    /// Texels a side; larger maps are drawn in pages. 0: see mapSizeFor().
+    Field<std::int32_t> mapSize;
     Field<math::vec4> shadowColor{math::vec4{0.0F, 0.0F, 0.0F, 1.0F}};  ///< rgb, a = darkness
     Field<float> range{0.3F};  ///< focus region, 0 < range < 0.8
-    Field<bool> qualityMode;
+    Field<bool> qualityMode;   ///< better for more time: exact depth, larger penumbrae
+    Field<DepthUse> depthRange;
     Field<float> offBias{4.0F};  ///< with overrideBias: constant offset, units of depth resolution
     Field<float> offFactor{10.0F};       ///< with overrideBias: factor of the slope
     Field<bool> overrideBias;            ///< false: the offset is derived for each receiver
@@ -103,11 +115,20 @@ public:
             std::tuple{entry("shadowOn", &V::shadowOn), entry("technique", &V::technique),
                        entry("mapSize", &V::mapSize), entry("shadowColor", &V::shadowColor),
                        entry("range", &V::range), entry("qualityMode", &V::qualityMode),
-                       entry("offBias", &V::offBias), entry("offFactor", &V::offFactor),
-                       entry("overrideBias", &V::overrideBias), entry("lightNodes", &V::lightNodes),
+                       entry("depthRange", &V::depthRange), entry("offBias", &V::offBias),
+                       entry("offFactor", &V::offFactor), entry("overrideBias", &V::overrideBias),
+                       entry("lightNodes", &V::lightNodes),
                        entry("excludeNodes", &V::excludeNodes)});
     }
 };
+
+/// Texels a side of a shadow map where none are asked for: 512, doubled until they are not fewer
+/// than the pixels of the shorter side of what the whole screen shows.
+inline int mapSizeFor(glm::ivec2 whole) noexcept {
+    int size = 512;
+    while (size < std::min(whole.x, whole.y) && size < 16384) size *= 2;
+    return size;
+}
 
 /// Where a server draws. A server draws the windows that bear its name.
 class Window final : public Container<Window> {

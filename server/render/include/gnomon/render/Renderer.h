@@ -4,11 +4,13 @@
 #include <gnomon/gl/Context.h>
 #include <gnomon/image/Image.h>
 #include <gnomon/scene/Window.h>
+#include <gnomon/shadow_fit/Receivers.h>
 
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,7 @@ struct FrameStatistics {
     std::uint64_t mapTexels = 0;  ///< drawn this frame
     std::uint64_t mapBytes = 0;   ///< held
     int lights = 0;
+    int lightsUnseen = 0;   ///< reach nothing that is seen
     int lightsLeftOut = 0;  ///< more than a view can have
     int degenerate = 0;     ///< fits that fell back to the plain one
     /// Only with measurePasses: each ends with glFinish.
@@ -59,6 +62,11 @@ public:
     /// Draws all viewports of a window into its own framebuffer.
     /// Errors: a viewport without a usable camera (Errc::edit), no memory for it (Errc::context).
     Result<FrameStatistics> draw(const scene::Window& window, double time);
+    /// Depths in eye space, metres, between which the window's viewports show something that fits
+    /// with DepthUse other than off want to know of; nothing where nothing is seen, or none does.
+    /// @param drawn  as the last draw() left it; else depth alone is drawn first
+    /// Errors: as draw().
+    Result<std::optional<shadow_fit::DepthSpan>> depthSpan(const scene::Window& window, bool drawn);
     /// Waits until everything drawn is done.
     void finish() const;
 

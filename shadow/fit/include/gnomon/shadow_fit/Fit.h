@@ -31,6 +31,12 @@ struct LightShape {
     double extent = 0.0;
 };
 
+/// Half the angle of the widest cone a point light's single map shows, radians: 75 degrees.
+inline constexpr double widestOfPoint = 1.3089969389957472;
+/// A point light as the spot that sees what is seen: the narrowest cone around it, or, where that
+/// is wider than widestOfPoint, one toward its middle. What is outside it is lit.
+LightShape spotThatSees(const LightShape& point, std::span<const math::dvec3> seen);
+
 /// What an application can set of the fits. Each fit reads what concerns it.
 struct FitSettings {
     /// trapez: the share of the view's depth, from the front, that gets four fifths of the map.

@@ -5,12 +5,18 @@
 #include <gnomon/math/View.h>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace gnomon::shadow_fit {
 
 struct LightShape;
+
+/// Depths along a view's axis between which something is seen, metres in eye space.
+struct DepthSpan {
+    double near = 0.0, far = 0.0;
+};
 
 /// What can be seen and lit, as convex pieces that each hold a part of it: the boxes of a scene's
 /// chunks, cut to the view volume and to where the light reaches. Its memory is kept.
@@ -19,7 +25,9 @@ public:
     void clear() noexcept;
     /// Adds what a view sees of the boxes. Views that are not finite see nothing.
     /// @param light  what it cannot reach is left out; nullptr: all that is seen
-    void add(const math::View& view, const LightShape* light, const math::BoxTree& boxes);
+    /// @param depth  what is nearer or farther is not seen
+    void add(const math::View& view, const LightShape* light, const math::BoxTree& boxes,
+             const std::optional<DepthSpan>& depth = {});
 
     /// Takes flat pieces off the outline, as the light sees it, that nothing stands over: they are
     /// lit, with or without a map, and a map that need not hold them has finer texels elsewhere.
@@ -67,8 +75,9 @@ struct Sample {
 /// What is seen, by rays through a grid of pixels: a coarse picture, each point for an equal share
 /// of it. A box stops as many rays as triangles of its area, spread in it at random, would.
 /// @param perSide  rays a side of each view's picture
+/// @param depth    points nearer or farther are not seen
 std::vector<Sample> samplePicture(std::span<const math::View> views, const Boxes& boxes,
-                                  int perSide);
+                                  int perSide, const std::optional<DepthSpan>& depth = {});
 /// Weighs samples by what is between them and a light: where nothing is, or much, no edge is
 /// likely.
 void weigh(std::span<Sample> samples, const LightShape& light, const Boxes& boxes);

@@ -31,12 +31,26 @@ public:
     /// @param applied  what has changed in it since the last call.
     void update(field::Aspect& session, const field::Applied& applied);
 
+    /// After update(): some fits wait for what is really seen (DepthUse::exact). Until fit() they
+    /// are as they were, or as without depth where they are new.
+    bool wantsDepth() const noexcept;
+    /// Makes those fits. @param seen  of all windows together; nothing: nothing is seen
+    void fit(field::Aspect& session, const std::optional<DepthSpan>& seen);
+    /// After update(): depthSeen() is wanted of this frame (DepthUse::previous).
+    bool tellsDepth() const noexcept { return previous_; }
+    /// What was seen in a frame that was drawn; for the next update().
+    void depthSeen(const std::optional<DepthSpan>& seen);
+
 private:
     struct Group;
     struct Scene;
+    struct Plan;
     void findWindows(const field::Aspect& session, const field::Applied& applied);
     void collectGroups(const field::Aspect& session, std::vector<Group>& groups) const;
-    void fit(field::Aspect& session, const Group& group);
+    void fit(field::Aspect& session, const Group& group, const std::optional<DepthSpan>& depth);
+    void fit(field::Aspect& session, const Group& group, const scene::FlatScene::LightUse& use,
+             const Plan& plan);
+    bool keep(const Group& group);
     void dropUnused(field::Aspect& session);
     void warnOnce(const std::string& text);
 
@@ -54,6 +68,10 @@ private:
     std::map<Key, Held> states_;
     std::map<field::Id, std::unique_ptr<Scene>> scenes_;  ///< by root
     Receivers receivers_;                                 // kept for its memory
+    std::vector<Group> waiting_;                          // for fit()
+    std::optional<DepthSpan> lately_ = {};                // with its margin
+    bool previous_ = false;
+    bool depthChanged_ = false;
     std::vector<std::string> warned_;
     std::uint64_t round_ = 0;
 };
