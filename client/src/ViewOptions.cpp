@@ -210,6 +210,7 @@ void ShadowArguments::apply(config::Shadow& shadow) const {
         shadow.on = true;
     }
     if (mapSize) shadow.mapSize = *mapSize;
+    if (depthRange) shadow.depthRange = *depthRange;
 }
 
 void addShadowOptions(CLI::App& command, ShadowArguments& shadow) {
@@ -234,6 +235,16 @@ void addShadowOptions(CLI::App& command, ShadowArguments& shadow) {
             shadow.mapSize = *size;
         },
         "Texels a side of a shadow map", "N");
+    addText(
+        command, "--depth-range",
+        [&shadow](const std::string& text) {
+            for (const auto use : {config::DepthRange::off, config::DepthRange::previous,
+                                   config::DepthRange::exact})
+                if (text == config::name(use)) shadow.depthRange = use;
+            if (!shadow.depthRange || config::name(*shadow.depthRange) != text)
+                wrong("--depth-range", text, "off, previous or exact");
+        },
+        "How fits learn how deep the view is", "USE");
 }
 
 void addBackendOption(CLI::App& command, std::string& backend) {

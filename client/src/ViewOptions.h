@@ -34,10 +34,11 @@ void addViewOptions(CLI::App& command, ViewArguments& view);
 /// `--sun`, `--spot`, `--point`, each any number of times: suns first, then spots, then points.
 void addLightOptions(CLI::App& command, std::vector<LightOption>& lights);
 
-/// `--technique T`, `--map-size N`, checked as a config's are.
+/// `--technique T`, `--map-size N`, `--depth-range USE`, checked as a config's are.
 struct ShadowArguments {
     std::optional<std::string> technique = {};
     std::optional<int> mapSize = {};
+    std::optional<config::DepthRange> depthRange = {};
 
     /// Puts what was given in place of the config's.
     void apply(config::Shadow& shadow) const;

@@ -61,10 +61,12 @@ TEST(ViewOptions, LightsMayComeSeveralTimes) {
 
 TEST(ViewOptions, TechniqueAndMapSizeReplaceTheConfigs) {
     config::Shadow shadow{.on = false, .mapSize = 512};
-    parse({"--technique", "trapez+pcf", "--map-size", "4096"}).shadow.apply(shadow);
+    parse({"--technique", "trapez+pcf", "--map-size", "4096", "--depth-range", "previous"})
+        .shadow.apply(shadow);
     EXPECT_TRUE(shadow.on);
     EXPECT_EQ(shadow.technique, "trapez+pcf");
     EXPECT_EQ(shadow.mapSize, 4096);
+    EXPECT_EQ(shadow.depthRange, config::DepthRange::previous);
 }
 
 struct WrongCase {
