@@ -1,17 +1,17 @@
 #include "Bench.h"
 
 #include <fmt/format.h>
+#include <gnomon/image/Png.h>
 #include <gnomon/scene/CameraView.h>
 #include <gnomon/truth/ShadowError.h>
 #include <gnomon/truth/Truth.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <optional>
 
+#include "BenchReport.h"
 #include "FreeView.h"
 #include "LocalSession.h"
 #include "Nudge.h"
@@ -34,25 +34,8 @@ struct Contender {
     std::vector<double> frameMs = {};
     render::FrameStatistics last = {};
     truth::ShadowError error = {};
+    std::string picture = {};  ///< of the error, in the report's folder
 };
-
-struct Interval {
-    double median = 0.0, low = 0.0, high = 0.0;
-};
-
-/// The median and the 95 % interval that order statistics give it, whatever the distribution.
-Interval medianOf(std::vector<double> values) {
-    if (values.empty()) return {};
-    std::sort(values.begin(), values.end());
-    const auto n = static_cast<double>(values.size());
-    const auto at = [&](double rank) {
-        return values[static_cast<std::size_t>(std::clamp(rank, 0.0, n - 1.0))];
-    };
-    const double half = 0.98 * std::sqrt(n);
-    return {.median = at(std::floor(n / 2.0)),
-            .low = at(std::floor(n / 2.0 - half)),
-            .high = at(std::ceil(n / 2.0 + half))};
-}
 
 class Bench {
 public:
@@ -61,11 +44,14 @@ public:
 
     int run() {
         for (const int size : options_.mapSizes)
-            for (const std::string& technique : options_.techniques) enter(technique, size);
+            for (const std::string& technique : options_.techniques)
+                // Without maps their size does not matter.
+                if (technique != "none" || size == options_.mapSizes.front())
+                    enter(technique, size);
         measureErrors();
         measureTimes();
         print();
-        writeJson();
+        write();
         return 0;
     }
 
@@ -75,12 +61,14 @@ private:
     void measureTimes();
     void frame(Contender& contender, bool count);
     void print() const;
-    void writeJson() const;
+    BenchTable table() const;
+    void write();
     Interval ratio(const Contender& contender) const;
 
     const BenchOptions& options_;
     Console console_;
     std::unique_ptr<gl::Context> context_;
+    glm::ivec2 size_{0};
     std::vector<std::unique_ptr<Contender>> contenders_;
 };
 
@@ -108,11 +96,19 @@ void Bench::enter(const std::string& technique, int mapSize) {
 }
 
 void Bench::measureErrors() {
+    if (!options_.report.empty()) {
+        std::error_code error;
+        std::filesystem::create_directories(options_.report, error);
+        if (error)
+            throw Failure{Errc::file,
+                          "cannot make " + options_.report.string() + ": " + error.message()};
+    }
     field::Aspect& aspect = contenders_.front()->session->aspect();
     const scene::Window& window = *aspect.get(contenders_.front()->window);
     const auto* viewport =
         dynamic_cast<const scene::Viewport*>(aspect.find(window.viewports[0].id));
     const glm::ivec2 size = window.size;
+    size_ = size;
     const auto camera =
         orThrow(scene::cameraView(aspect, viewport->camera, static_cast<double>(size.x) / size.y));
     scene::FlatScene flat{aspect};
@@ -132,6 +128,10 @@ void Bench::measureErrors() {
         orThrow(renderer.draw(drawn, 0.0));
         const auto factor = orThrow(renderer.shadowFactor(drawn, 0, lights.front()));
         c->error = orThrow(truth::compareFactors(truth.factor, factor));
+        if (options_.report.empty()) continue;
+        c->picture = fmt::format("{}-{}.png", c->technique, c->mapSize);
+        orThrow(image::writePng(options_.report / c->picture,
+                                truth::errorPicture(truth.factor, factor)));
     }
 }
 
@@ -180,29 +180,41 @@ void Bench::print() const {
     }
 }
 
-void Bench::writeJson() const {
-    if (options_.json.empty()) return;
-    auto rows = nlohmann::ordered_json::array();
-    for (const auto& c : contenders_) {
-        const Interval all = ratio(*c);
-        rows.push_back({{"technique", c->technique},
-                        {"map_size", c->mapSize},
-                        {"dynamic", options_.dynamic},
-                        {"frame_ms", medianOf(c->frameMs).median},
-                        {"ratio", {all.low, all.median, all.high}},
-                        {"wrong", c->error.share(c->error.wrong)},
-                        {"interior", c->error.share(c->error.interior)},
-                        {"rmse", c->error.rmse},
-                        {"triangles", c->last.triangles + c->last.shadowTriangles},
-                        {"map_texels", c->last.mapTexels},
-                        {"map_bytes", c->last.mapBytes},
-                        {"degenerate", c->last.degenerate}});
+BenchTable Bench::table() const {
+    BenchTable table{.scene = options_.scene.filename().string(),
+                     .renderer = context_->renderer(),
+                     .width = size_.x,
+                     .height = size_.y,
+                     .dynamic = options_.dynamic,
+                     .frames = options_.rounds};
+    for (const auto& c : contenders_)
+        table.rows.push_back({.technique = c->technique,
+                              .mapSize = c->mapSize,
+                              .frameMs = medianOf(c->frameMs),
+                              .ratio = ratio(*c),
+                              .error = c->error,
+                              .triangles = c->last.triangles + c->last.shadowTriangles,
+                              .mapTexels = c->last.mapTexels,
+                              .mapBytes = c->last.mapBytes,
+                              .degenerate = c->last.degenerate,
+                              .picture = c->picture});
+    return table;
+}
+
+void Bench::write() {
+    const BenchTable found = table();
+    if (!options_.report.empty()) {
+        writeBenchReport(options_.report, found);
+        console_.line("wrote " + (options_.report / "index.html").string());
     }
-    std::ofstream file{options_.json};
-    file << nlohmann::ordered_json{{"renderer", context_->renderer()}, {"runs", rows}}.dump(2)
-         << '\n';
-    file.close();
-    if (!file) throw Failure{Errc::file, "cannot write " + options_.json.string()};
+    for (const auto& [path, text] :
+         {std::pair{options_.json, benchJson(found)}, std::pair{options_.csv, benchCsv(found)}}) {
+        if (path.empty()) continue;
+        std::ofstream file{path};
+        file << text;
+        file.close();
+        if (!file) throw Failure{Errc::file, "cannot write " + path.string()};
+    }
 }
 
 }  // namespace

@@ -18,6 +18,8 @@ struct BenchOptions {
     int rounds = 50;
     bool dynamic = false;
     std::filesystem::path json = {};
+    std::filesystem::path csv = {};
+    std::filesystem::path report = {};  ///< a folder
 };
 
 /// Runs techniques in turn, frame by frame, so that a machine's mood hits all alike, and holds each

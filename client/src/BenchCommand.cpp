@@ -23,6 +23,9 @@ void addBench(CLI::App& program, Action& action) {
         ->check(CLI::Range(1, 100000));
     command.add_flag("--dynamic", options->dynamic, "nothing drawn before can serve again");
     command.add_option("--json", options->json, "figures to write");
+    command.add_option("--csv", options->csv, "the same as a table");
+    command.add_option("--report", options->report,
+                       "folder to write a page with plot, table and pictures to");
     command.callback([options, &action] {
         options->view.validate();
         if (options->techniques.empty()) options->techniques = {"none", "std"};
