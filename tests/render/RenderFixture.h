@@ -57,6 +57,7 @@ protected:
     }
 
     // Views.
+    static math::Affine lookFrom(const math::dvec3& from, const math::dvec3& to);
     const scene::MatrixCamera& topView();
     const scene::PerspectiveCamera& perspectiveView(const math::dvec3& eye, const math::dvec3& to);
     struct View {
@@ -99,7 +100,6 @@ protected:
     const scene::Node& root = app.create<scene::Node>();
 
 private:
-    static math::Affine lookFrom(const math::dvec3& from, const math::dvec3& to);
 };
 
 /// Names the rows of suites over all fits.
