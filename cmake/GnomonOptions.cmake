@@ -3,7 +3,7 @@
 set(GNOMON_SANITIZE "" CACHE STRING "Sanitizers for -fsanitize=, e.g. address,undefined or thread")
 option(GNOMON_CORE_ONLY "Build only base, math, field, scene and net (what the thread sanitizer looks at)" OFF)
 
-option(GNOMON_UNITY "Compile sources in batches: half the work of a cold build, but more of a warm one" OFF)
+option(GNOMON_UNITY "Compile sources in batches, which halves the work of headers" ON)
 
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
