@@ -46,22 +46,11 @@ bool BoxTree::any(std::span<const Plane> planes) const noexcept {
     return false;
 }
 
-bool BoxTree::passes(const Box& box, const dvec3& from, const dvec3& direction, double& entry,
-                     double& exit) noexcept {
-    entry = 0.0;
-    exit = std::numeric_limits<double>::infinity();
-    if (box.empty()) return false;
+BoxTree::Ray::Ray(const dvec3& origin, const dvec3& direction) noexcept : from{origin} {
     for (int axis = 0; axis < 3; ++axis) {
-        if (direction[axis] == 0.0) {
-            if (!(from[axis] >= box.min[axis] && from[axis] <= box.max[axis])) return false;
-            continue;
-        }
-        const double a = (box.min[axis] - from[axis]) / direction[axis];
-        const double b = (box.max[axis] - from[axis]) / direction[axis];
-        entry = std::max(entry, std::min(a, b));
-        exit = std::min(exit, std::max(a, b));
+        along[axis] = std::abs(direction[axis]) > 1e-300;
+        inverse[axis] = along[axis] ? 1.0 / direction[axis] : 0.0;
     }
-    return entry <= exit;
 }
 
 void BoxTree::rebuild() {

@@ -75,6 +75,13 @@ void Receivers::addPiece(std::span<const dvec3> points, int flat) {
     if (piece.count > 0) pieces_.push_back(piece);
 }
 
+void Receivers::addWhole(std::span<const dvec3> points, int flat) {
+    pieces_.push_back({.first = static_cast<std::uint32_t>(points_.size()),
+                       .count = static_cast<std::uint32_t>(points.size()),
+                       .flat = flat});
+    points_.insert(points_.end(), points.begin(), points.end());
+}
+
 void Receivers::add(const math::View& view, const LightShape* light, const math::BoxTree& boxes,
                     const std::optional<DepthSpan>& depth) {
     if (!math::isFinite(view.clipFromWorld())) return;
@@ -91,7 +98,10 @@ void Receivers::add(const math::View& view, const LightShape* light, const math:
         if (inside) {
             std::array<dvec3, 8> corners;
             for (int i = 0; i < 8; ++i) corners[static_cast<std::size_t>(i)] = box.corner(i);
-            addPiece(corners, flat);
+            if (flat < 0 && isFinite(box.min) && isFinite(box.max))
+                addWhole(corners, flat);
+            else
+                addPiece(corners, flat);
             return;
         }
         body_.assign(box);

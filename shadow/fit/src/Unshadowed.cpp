@@ -164,23 +164,60 @@ void Receivers::dropUnshadowed(const LightShape& light, const math::BoxTree& cas
         return true;
     };
 
-    // Of each direction the pieces by how far they reach, the furthest on top.
+    // Of each direction the pieces by how far they reach, the furthest on top: first by a disk
+    // around each, by their points when they come up.
+    struct Disk {
+        dvec2 middle{0.0};
+        double radius = 0.0;
+    };
+    std::vector<Disk> disks;
+    const auto addDisks = [&] {
+        while (disks.size() < pieces_.size()) {
+            const Piece& piece = pieces_[disks.size()];
+            dvec2 low{std::numeric_limits<double>::infinity()};
+            dvec2 high{-std::numeric_limits<double>::infinity()};
+            for (std::uint32_t i = piece.first; i < piece.first + piece.count; ++i) {
+                low = glm::min(low, onPlane[i]);
+                high = glm::max(high, onPlane[i]);
+            }
+            disks.push_back(
+                {.middle = (low + high) * 0.5, .radius = glm::length(high - low) * 0.5});
+        }
+    };
+    addDisks();
     struct Reach {
         double extent = 0.0;
         std::size_t piece = 0;
+        bool exact = false;
         bool operator<(const Reach& other) const { return extent < other.extent; }
     };
     std::vector<Reach> heap;
+    std::vector<double> along;
     int tests = 0;
     for (int i = 0; i < directions && tests < mostTests; ++i) {
         const double angle = 2.0 * std::numbers::pi * i / directions;
         const dvec2 direction{std::cos(angle), std::sin(angle)};
+        // What stays for certain ends the search: nothing that reaches less far comes up.
+        double kept = -std::numeric_limits<double>::infinity();
+        along.clear();
+        for (std::size_t p = 0; p < pieces_.size(); ++p) {
+            along.push_back(glm::dot(disks[p].middle, direction));
+            if (pieces_[p].flat < 0 || states[p] == State::kept)
+                kept = std::max(kept, along[p] - disks[p].radius);
+        }
         heap.clear();
         for (std::size_t p = 0; p < pieces_.size(); ++p)
-            if (states[p] != State::dropped) heap.push_back({extentOf(p, direction), p});
+            if (states[p] != State::dropped && along[p] + disks[p].radius >= kept)
+                heap.push_back({along[p] + disks[p].radius, p});
         std::make_heap(heap.begin(), heap.end());
         while (tests < mostTests && !heap.empty()) {
             const std::size_t furthest = heap.front().piece;
+            if (!heap.front().exact) {
+                std::pop_heap(heap.begin(), heap.end());
+                heap.back() = {extentOf(furthest, direction), furthest, true};
+                std::push_heap(heap.begin(), heap.end());
+                continue;
+            }
             if (states[furthest] == State::kept) break;
             const Piece piece = pieces_[furthest];
             if (piece.flat < 0) {
@@ -196,8 +233,9 @@ void Receivers::dropUnshadowed(const LightShape& light, const math::BoxTree& cas
                 states[furthest] = State::dropped;
             } else if (split(furthest)) {
                 states[furthest] = State::dropped;  // its halves are in its place
+                addDisks();
                 for (std::size_t p = before; p < pieces_.size(); ++p) {
-                    heap.push_back({extentOf(p, direction), p});
+                    heap.push_back({extentOf(p, direction), p, true});
                     std::push_heap(heap.begin(), heap.end());
                 }
             } else {
@@ -211,7 +249,7 @@ void Receivers::dropUnshadowed(const LightShape& light, const math::BoxTree& cas
     clear();
     for (std::size_t p = 0; p < pieces.size(); ++p)
         if (states[p] != State::dropped)
-            addPiece(std::span{points}.subspan(pieces[p].first, pieces[p].count), pieces[p].flat);
+            addWhole(std::span{points}.subspan(pieces[p].first, pieces[p].count), pieces[p].flat);
 }
 
 }  // namespace gnomon::shadow_fit

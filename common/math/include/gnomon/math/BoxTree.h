@@ -2,7 +2,9 @@
 
 #include <gnomon/math/Types.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -50,6 +52,7 @@ public:
     template <class Found>
     void along(const dvec3& from, const dvec3& direction, Found&& found) const {
         if (nodes_.empty()) return;
+        const Ray ray{from, direction};
         std::uint32_t open[64];
         std::size_t count = 0;
         open[count++] = 0;
@@ -58,7 +61,7 @@ public:
             const Node& node = nodes_[index];
             double entry = 0.0;
             double exit = 0.0;
-            if (!passes(node.box, from, direction, entry, exit)) continue;
+            if (!passes(node.box, ray, entry, exit)) continue;
             if (node.count == 0) {
                 open[count++] = node.second;
                 open[count++] = index + 1;
@@ -66,7 +69,7 @@ public:
             }
             for (std::uint32_t i = 0; i < node.count; ++i) {
                 const std::uint32_t item = order_[node.first + i];
-                if (passes(boxes_[item], from, direction, entry, exit)) found(item, entry, exit);
+                if (passes(boxes_[item], ray, entry, exit)) found(item, entry, exit);
             }
         }
     }
@@ -126,8 +129,30 @@ private:
         }
         return true;
     }
-    static bool passes(const Box& box, const dvec3& from, const dvec3& direction, double& entry,
-                       double& exit) noexcept;
+    struct Ray {
+        Ray(const dvec3& origin, const dvec3& direction) noexcept;
+        dvec3 from{0.0};
+        dvec3 inverse{0.0};  ///< of the direction
+        bool along[3] = {};  ///< the direction goes along this axis at all
+    };
+    static bool passes(const Box& box, const Ray& ray, double& entry, double& exit) noexcept {
+        entry = 0.0;
+        exit = std::numeric_limits<double>::infinity();
+        if (box.empty()) return false;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double low = box.min[axis] - ray.from[axis];
+            const double high = box.max[axis] - ray.from[axis];
+            if (!ray.along[axis]) {
+                if (!(low <= 0.0 && high >= 0.0)) return false;
+                continue;
+            }
+            const double a = low * ray.inverse[axis];
+            const double b = high * ray.inverse[axis];
+            entry = std::max(entry, std::min(a, b));
+            exit = std::min(exit, std::max(a, b));
+        }
+        return entry <= exit;
+    }
     void rebuild();
     std::uint32_t buildNode(std::uint32_t first, std::uint32_t last, std::uint32_t parent);
     Box boxOf(const Node& node, std::uint32_t index) const noexcept;

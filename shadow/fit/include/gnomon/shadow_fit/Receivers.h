@@ -51,6 +51,8 @@ private:
         int flat = -1;                       ///< the axis in which it has no extent
     };
     void addPiece(std::span<const math::dvec3> points, int flat);
+    /// Of points that are known to differ and to be finite.
+    void addWhole(std::span<const math::dvec3> points, int flat);
 
     std::vector<math::dvec3> points_;
     std::vector<Piece> pieces_;
