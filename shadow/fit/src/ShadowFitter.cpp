@@ -103,7 +103,8 @@ void ShadowFitter::update(field::Aspect& session, const field::Applied& applied)
         const auto* viewport = session.get(scene::Ref<scene::ShadowViewport>{group.viewport});
         const bool previous = viewport->depthRange == scene::DepthUse::previous;
         previous_ = previous_ || previous;
-        const bool exact = viewport->depthRange == scene::DepthUse::exact;
+        const bool exact =
+            viewport->depthRange == scene::DepthUse::exact && viewport->technique.get() != "none";
         if (exact && keep(group)) {
             waiting_.push_back(std::move(group));
             continue;
