@@ -48,6 +48,7 @@ void applyShadow(const config::Shadow& from, scene::ShadowViewport& viewport) {
         math::vec4{linearFromSrgb(from.color[0]), linearFromSrgb(from.color[1]),
                    linearFromSrgb(from.color[2]), static_cast<float>(from.color[3])};
     viewport.range = static_cast<float>(from.range);
+    viewport.cascades = from.cascades;
     viewport.qualityMode = from.qualityMode;
     viewport.depthRange =
         from.qualityMode || from.depthRange == config::DepthRange::exact ? scene::DepthUse::exact

@@ -43,7 +43,9 @@ color = [0.1, 0.2, 0.3, 0.4]
 offset_bias = 4
 offset_factor = 10.5
 range = 0.79
+cascades = 8
 quality_mode = true
+depth_range = "previous"
 [render]
 samples = 8
 background = [0.1, 0.2, 0.3]

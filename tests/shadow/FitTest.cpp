@@ -42,6 +42,7 @@ struct Situation {
     LightShape light = {};
     std::vector<math::View> views = {};
     math::Box scene = {};
+    FitSettings settings = {};
 
     /// What a fit made of it; the scene is one box.
     Fitted fitted(const FitInfo& info, int mapSize = 1024) const {
@@ -54,7 +55,8 @@ struct Situation {
                          .receivers = seen,
                          .samples = samples,
                          .scene = scene,
-                         .mapSize = mapSize});
+                         .mapSize = mapSize,
+                         .settings = settings});
     }
     Receivers receivers(const math::BoxTree& tree) const {
         Receivers seen;
@@ -297,6 +299,35 @@ TEST(StandardFit, ASpotsMapIsCutToWhatIsSeen) {
         return glm::length(dvec2{b} - dvec2{a});
     };
     EXPECT_GT(texels(0.1), 4.0 * texels(1.0)) << "a narrow view gets finer texels";
+}
+
+TEST(CascadedFit, SharesTheTexelsOfOneMapAmongAsManyAsAskedFor) {
+    const auto& info = *std::find_if(fits().begin(), fits().end(),
+                                     [](const FitInfo& i) { return i.name == "csm"; });
+    Situation s;
+    s.scene = {.min = {-100.0, 0.0, -100.0}, .max = {100.0, 0.0, 100.0}};
+    s.light = {.direction = glm::normalize(dvec3{0.4, -1.0, 0.3})};
+    s.views = {{.clipFromEye = math::perspective(1.0, 1.5, 0.1, 300.0),
+                .eyeFromWorld = math::lookAt({0.0, 2.0, 90.0}, {0.0, 0.0, 0.0}, {0, 1, 0})}};
+    double nearest = 0.0;
+    for (int cascades = 2; cascades <= 8; ++cascades) {
+        s.settings.cascades = cascades;
+        const Fitted fitted = s.fitted(info, 1024);
+        EXPECT_FALSE(fitted.degenerate) << cascades;
+        EXPECT_GE(fitted.maps.size(), 2U) << cascades;
+        EXPECT_LE(fitted.maps.size(), static_cast<std::size_t>(cascades));
+        EXPECT_LE(fitted.mapSize * fitted.mapSize * cascades, 1024 * 1024) << cascades;
+        // The ground in front of the eye is in the first map, at a texel of centimetres.
+        const dvec3 place{0.0, 0.0, 86.0};
+        const auto a = inMap(fitted.maps[0], place);
+        ASSERT_TRUE(inside(a)) << cascades;
+        const auto b = inMap(fitted.maps[0], place + dvec3{0.01, 0.0, 0.0});
+        const double density = glm::length(dvec2{b} - dvec2{a}) * fitted.mapSize;
+        if (cascades > 2) {
+            EXPECT_GT(density, nearest * 0.6) << "more maps, no coarser near the eye";
+        }
+        nearest = density;
+    }
 }
 
 }  // namespace

@@ -76,6 +76,7 @@ struct Schema<Shadow> {
         Field{"offset_factor", &Shadow::offsetFactor, Rule{.min = 0, .max = 1e6}},
         Field{"range", &Shadow::range,
               Rule{.min = 0, .max = 0.8, .openMin = true, .openMax = true}},
+        Field{"cascades", &Shadow::cascades, Rule{.min = 2, .max = 8}},
         Field{"quality_mode", &Shadow::qualityMode, anything},
         Field{"depth_range", &Shadow::depthRange, anything},
     };

@@ -270,13 +270,14 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group,
         receivers_.clear();
     auto samples = plan.samples;
     weigh(samples, light, boxes);
-    Fitted fitted = plan.info.fit({.light = light,
-                                   .views = group.views,
-                                   .receivers = receivers_,
-                                   .samples = samples,
-                                   .scene = plan.seen.flat.bounds(),
-                                   .mapSize = plan.mapSize,
-                                   .settings = {.range = plan.viewport.range}});
+    Fitted fitted = plan.info.fit(
+        {.light = light,
+         .views = group.views,
+         .receivers = receivers_,
+         .samples = samples,
+         .scene = plan.seen.flat.bounds(),
+         .mapSize = plan.mapSize,
+         .settings = {.range = plan.viewport.range, .cascades = plan.viewport.cascades}});
     std::vector<math::dmat4> maps;
     for (const FittedMap& map : fitted.maps) {
         if (!math::isFinite(map.clipFromWorld)) {

@@ -99,8 +99,9 @@ public:
     /// Texels a side; larger maps are drawn in pages. 0: see mapSizeFor().
     Field<std::int32_t> mapSize;
     Field<math::vec4> shadowColor{math::vec4{0.0F, 0.0F, 0.0F, 1.0F}};  ///< rgb, a = darkness
-    Field<float> range{0.3F};  ///< focus region, 0 < range < 0.8
-    Field<bool> qualityMode;   ///< better for more time: exact depth, larger penumbrae
+    Field<float> range{0.3F};         ///< focus region, 0 < range < 0.8
+    Field<std::int32_t> cascades{4};  ///< of csm, 2 to 8
+    Field<bool> qualityMode;          ///< better for more time: exact depth, larger penumbrae
     Field<DepthUse> depthRange;
     Field<float> offBias{4.0F};  ///< with overrideBias: constant offset, units of depth resolution
     Field<float> offFactor{10.0F};       ///< with overrideBias: factor of the slope
@@ -114,10 +115,10 @@ public:
             viewportFields<V>(),
             std::tuple{entry("shadowOn", &V::shadowOn), entry("technique", &V::technique),
                        entry("mapSize", &V::mapSize), entry("shadowColor", &V::shadowColor),
-                       entry("range", &V::range), entry("qualityMode", &V::qualityMode),
-                       entry("depthRange", &V::depthRange), entry("offBias", &V::offBias),
-                       entry("offFactor", &V::offFactor), entry("overrideBias", &V::overrideBias),
-                       entry("lightNodes", &V::lightNodes),
+                       entry("range", &V::range), entry("cascades", &V::cascades),
+                       entry("qualityMode", &V::qualityMode), entry("depthRange", &V::depthRange),
+                       entry("offBias", &V::offBias), entry("offFactor", &V::offFactor),
+                       entry("overrideBias", &V::overrideBias), entry("lightNodes", &V::lightNodes),
                        entry("excludeNodes", &V::excludeNodes)});
     }
 };
