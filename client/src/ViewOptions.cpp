@@ -238,8 +238,8 @@ void addShadowOptions(CLI::App& command, ShadowArguments& shadow) {
     addText(
         command, "--depth-range",
         [&shadow](const std::string& text) {
-            for (const auto use : {config::DepthRange::off, config::DepthRange::previous,
-                                   config::DepthRange::exact})
+            for (const auto use :
+                 {config::DepthRange::off, config::DepthRange::previous, config::DepthRange::exact})
                 if (text == config::name(use)) shadow.depthRange = use;
             if (!shadow.depthRange || config::name(*shadow.depthRange) != text)
                 wrong("--depth-range", text, "off, previous or exact");

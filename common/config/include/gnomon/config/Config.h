@@ -59,7 +59,7 @@ struct Shadow {
     std::optional<double> offsetBias = {};       ///< absent: derived from the map
     std::optional<double> offsetFactor = {};     ///< absent: derived from the map
     double range = 0.3;  ///< share of the view in front of the focus line, trapezoidal maps only
-    int cascades = 4;  ///< of csm
+    int cascades = 4;    ///< of csm
     bool qualityMode = false;
     DepthRange depthRange = DepthRange::off;  ///< how fits learn how deep the view really is
     Origin origin = {};
