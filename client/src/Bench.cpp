@@ -8,13 +8,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <optional>
 
 #include "BenchReport.h"
 #include "FreeView.h"
 #include "LocalSession.h"
 #include "Nudge.h"
+#include "TextFile.h"
 
 namespace gnomon::client {
 namespace {
@@ -96,13 +96,7 @@ void Bench::enter(const std::string& technique, int mapSize) {
 }
 
 void Bench::measureErrors() {
-    if (!options_.report.empty()) {
-        std::error_code error;
-        std::filesystem::create_directories(options_.report, error);
-        if (error)
-            throw Failure{Errc::file,
-                          "cannot make " + options_.report.string() + ": " + error.message()};
-    }
+    if (!options_.report.empty()) makeFolder(options_.report);
     field::Aspect& aspect = contenders_.front()->session->aspect();
     const scene::Window& window = *aspect.get(contenders_.front()->window);
     const auto* viewport =
@@ -207,14 +201,8 @@ void Bench::write() {
         writeBenchReport(options_.report, found);
         console_.line("wrote " + (options_.report / "index.html").string());
     }
-    for (const auto& [path, text] :
-         {std::pair{options_.json, benchJson(found)}, std::pair{options_.csv, benchCsv(found)}}) {
-        if (path.empty()) continue;
-        std::ofstream file{path};
-        file << text;
-        file.close();
-        if (!file) throw Failure{Errc::file, "cannot write " + path.string()};
-    }
+    if (!options_.json.empty()) writeText(options_.json, benchJson(found));
+    if (!options_.csv.empty()) writeText(options_.csv, benchCsv(found));
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
 #include "BenchReport.h"
 
 #include <fmt/format.h>
-#include <gnomon/base/Error.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
+
+#include "TextFile.h"
 
 namespace gnomon::client {
 namespace {
@@ -55,13 +55,6 @@ double roundStep(double span) {
     for (const double step : {1.0, 2.0, 5.0})
         if (step * power >= raw) return step * power;
     return 10.0 * power;
-}
-
-void write(const std::filesystem::path& file, const std::string& text) {
-    std::ofstream out{file};
-    out << text;
-    out.close();
-    if (!out) throw Failure{Errc::file, "cannot write " + file.string()};
 }
 
 /// From figures to places in the plot.
@@ -128,8 +121,8 @@ void drawAxes(std::string& svg, const Axes& axes) {
         (Axes::top + Axes::bottom) / 2.0);
 }
 
-void drawFront(std::string& svg, const Axes& axes, const BenchTable& table) {
-    const auto front = paretoFront(table.rows);
+void drawFront(std::string& svg, const Axes& axes, const BenchTable& table,
+               const std::vector<bool>& front) {
     std::vector<const BenchRow*> on;
     for (std::size_t i = 0; i < front.size(); ++i)
         if (front[i]) on.push_back(&table.rows[i]);
@@ -231,8 +224,8 @@ std::string benchSvg(const BenchTable& table) {
         "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
         Axes::width, Axes::height);
     drawAxes(svg, axes);
-    drawFront(svg, axes, table);
     const auto front = paretoFront(table.rows);
+    drawFront(svg, axes, table, front);
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const BenchRow& row = table.rows[i];
         const double x = axes.x(row.frameMs.median);
@@ -290,13 +283,11 @@ std::string benchHtml(const BenchTable& table) {
 }
 
 void writeBenchReport(const std::filesystem::path& folder, const BenchTable& table) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) throw Failure{Errc::file, "cannot make " + folder.string() + ": " + error.message()};
-    write(folder / "plot.svg", benchSvg(table));
-    write(folder / "table.csv", benchCsv(table));
-    write(folder / "table.json", benchJson(table));
-    write(folder / "index.html", benchHtml(table));
+    makeFolder(folder);
+    writeText(folder / "plot.svg", benchSvg(table));
+    writeText(folder / "table.csv", benchCsv(table));
+    writeText(folder / "table.json", benchJson(table));
+    writeText(folder / "index.html", benchHtml(table));
 }
 
 }  // namespace gnomon::client

@@ -2,8 +2,6 @@
 
 #include <gnomon/scene/Types.h>
 
-#include <algorithm>
-
 namespace gnomon::client {
 
 field::TypeRegistry LocalSession::makeTypes() {
@@ -34,7 +32,7 @@ const scene::Window& LocalSession::rendered(field::Ref<scene::Window> window) co
 
 void LocalSession::commit() {
     // As the servers' Depth of the frame before, and of this one.
-    if (drawn_ && fitter_.tellsDepth()) fitter_.depthSeen(depthSpan(true));
+    if (drawn_ && fitter_.tellsDepth()) fitter_.depthSeen(orThrow(renderer_->depthSpan(true)));
     drawn_ = true;
     field::Applied inSession;
     field::ChangeList edits = aspect_.commit();
@@ -43,7 +41,7 @@ void LocalSession::commit() {
     edits.append(session_.commit());
     replicate(std::move(edits));
     if (fitter_.wantsDepth()) {
-        fitter_.fit(session_, depthSpan(false));
+        fitter_.fit(session_, orThrow(renderer_->depthSpan(false)));
         replicate(session_.commit());
     }
     aspect_.takeUnusedPayloads();
@@ -55,19 +53,6 @@ void LocalSession::replicate(field::ChangeList changes) {
     orThrow(replica_.apply(changes, &applied));
     replica_.takeUnusedPayloads();
     if (!applied.empty()) renderer_->update(applied);
-}
-
-std::optional<shadow_fit::DepthSpan> LocalSession::depthSpan(bool drawn) {
-    std::optional<shadow_fit::DepthSpan> all;
-    replica_.forEach([&](const field::FieldContainer& container) {
-        const auto* window = dynamic_cast<const scene::Window*>(&container);
-        if (window == nullptr) return;
-        const auto span = orThrow(renderer_->depthSpan(*window, drawn));
-        if (!span) return;
-        if (!all) all = span;
-        all = {.near = std::min(all->near, span->near), .far = std::max(all->far, span->far)};
-    });
-    return all;
 }
 
 std::unique_ptr<gl::Context> makeContext(const std::string& backend) {

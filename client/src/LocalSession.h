@@ -33,7 +33,6 @@ public:
 private:
     static field::TypeRegistry makeTypes();
     void replicate(field::ChangeList changes);
-    std::optional<shadow_fit::DepthSpan> depthSpan(bool drawn);
 
     field::TypeRegistry types_;
     field::Aspect aspect_;

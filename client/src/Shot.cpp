@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -16,6 +15,7 @@
 #include "FreeView.h"
 #include "LocalSession.h"
 #include "Nudge.h"
+#include "TextFile.h"
 
 namespace gnomon::client {
 namespace {
@@ -282,10 +282,7 @@ void Shot::writeJson() const {
         std::fputs((json.dump(2) + "\n").c_str(), stdout);
         return;
     }
-    std::ofstream file{options_.json};
-    file << json.dump(2) << '\n';
-    file.close();
-    if (!file) throw Failure{Errc::file, "cannot write " + options_.json.string()};
+    writeText(options_.json, json.dump(2) + "\n");
 }
 
 int Shot::take() {

@@ -8,12 +8,12 @@
 #include <gnomon/truth/Truth.h>
 
 #include <chrono>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "Commands.h"
 #include "FreeView.h"
+#include "TextFile.h"
 
 namespace gnomon::client {
 namespace {
@@ -118,10 +118,7 @@ int compareFactor(const CompareArguments& arguments) {
                                           {"edge_95", e.edge95},
                                           {"ssim", e.ssim},
                                           {"flip", e.flip}};
-        std::ofstream file{arguments.json};
-        file << json.dump(2) << '\n';
-        file.close();
-        if (!file) throw Failure{Errc::file, "cannot write " + arguments.json.string()};
+        writeText(arguments.json, json.dump(2) + "\n");
     }
     return 0;
 }

@@ -173,17 +173,16 @@ void FrameLoop::take(const net::Frame& frame) {
 }
 
 void FrameLoop::tellDepth(std::uint64_t n, bool drawn) {
-    net::Depth& depth = session_->depth;
-    depth = {.n = n, .min = 1.0F, .max = 0.0F};
+    std::optional<shadow_fit::DepthSpan> all;
     for (const scene::Window* window : session_->windows) {
         if (options_.backend == "none") break;
-        const auto span = orThrow(stationOf(*window).depthSpan(*window, drawn));
-        if (!span) continue;
-        const auto near = static_cast<float>(span->near);
-        const auto far = static_cast<float>(span->far);
-        const bool first = depth.min > depth.max;
-        depth.min = first ? near : std::min(depth.min, near);
-        depth.max = first ? far : std::max(depth.max, far);
+        all = together(all, orThrow(stationOf(*window).depthSpan(*window, drawn)));
+    }
+    net::Depth& depth = session_->depth;
+    depth = {.n = n, .min = 1.0F, .max = 0.0F};
+    if (all) {
+        depth.min = static_cast<float>(all->near);
+        depth.max = static_cast<float>(all->far);
     }
     host_->send(depth);
     session_->depthKnown = true;

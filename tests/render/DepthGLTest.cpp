@@ -103,7 +103,7 @@ TEST_F(DepthGLTest, MapsLeaveOutWhatIsHiddenWithAnyUseOfDepth) {
         edit(ahead.viewport)->depthRange = use;
         draw(ahead);
         if (use == scene::DepthUse::previous) {
-            fitter.depthSeen(depthSpan(true));
+            fitter.depthSeen(orThrow(renderer->depthSpan(true)));
             draw(ahead);
         }
         EXPECT_FALSE(holdsPlate()) << static_cast<int>(use);

@@ -153,23 +153,10 @@ void RenderTest::update() {
     orThrow(server.apply(session.commit(), &applied));
     renderer->update(applied);
     if (!fitter.wantsDepth()) return;
-    fitter.fit(session, depthSpan(false));
+    fitter.fit(session, orThrow(renderer->depthSpan(false)));
     applied.clear();
     orThrow(server.apply(session.commit(), &applied));
     renderer->update(applied);
-}
-
-std::optional<shadow_fit::DepthSpan> RenderTest::depthSpan(bool drawn) {
-    std::optional<shadow_fit::DepthSpan> all;
-    server.forEach([&](const field::FieldContainer& container) {
-        const auto* window = dynamic_cast<const scene::Window*>(&container);
-        if (window == nullptr) return;
-        const auto span = orThrow(renderer->depthSpan(*window, drawn));
-        if (!span) return;
-        if (!all) all = span;
-        all = {.near = std::min(all->near, span->near), .far = std::max(all->far, span->far)};
-    });
-    return all;
 }
 
 FrameStatistics RenderTest::draw(const View& view) {

@@ -70,7 +70,6 @@ protected:
     /// The application's changes, and the fits: to the renderer. Exact depth is that of all
     /// windows.
     void update();
-    std::optional<shadow_fit::DepthSpan> depthSpan(bool drawn);
     FrameStatistics draw(const View& view);
     image::Image picture(const View& view);
     image::Image factor(const View& view, const scene::Node& light);

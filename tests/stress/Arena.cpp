@@ -75,6 +75,10 @@ Arena::View Arena::seen(const scene::Camera& camera, int width, int height, int 
     return made;
 }
 
+void Arena::place(const scene::Node& beacon, const math::dvec3& from, const math::dvec3& to) {
+    edit(*app.get(scene::Ref<scene::Transform>{beacon.core->id}))->matrix = lookFrom(from, to);
+}
+
 image::Image Arena::truth(const View& view, const scene::Node& light) {
     const scene::ShadowViewport& viewport = copyOf(view.viewport);
     const glm::ivec2 size = view.window.size;

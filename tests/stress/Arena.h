@@ -14,6 +14,8 @@ protected:
     std::string technique() const { return std::string{GetParam().name}; }
     /// A viewport with the technique under test.
     View seen(const scene::Camera& camera, int width, int height, int mapSize);
+    /// Moves what a light or camera looks from.
+    void place(const scene::Node& beacon, const math::dvec3& from, const math::dvec3& to);
     /// What the viewport's picture of the light's shadow should be.
     image::Image truth(const View& view, const scene::Node& light);
     struct Both {

@@ -24,10 +24,6 @@ protected:
             add(below, box(low, low + vec3{0.8F, 3.0F, 0.8F}), true);
         }
     }
-    void aim(const scene::Light& light, const dvec3& from, const dvec3& to) {
-        const scene::Node& beacon = *app.get(light.beacon.get());
-        edit(*app.get(scene::Ref<scene::Transform>{beacon.core->id}))->matrix = lookFrom(from, to);
-    }
     std::size_t mapsHeld() {
         std::size_t count = 0;
         server.forEach([&](const field::FieldContainer& container) {
@@ -60,7 +56,7 @@ TEST_P(DirectionGLTest, EveryAngleToTheViewIsNoWorseThanThePlainMap) {
         const double down = std::numbers::pi / 6.0;
         const double turn = std::min(angle + down, std::numbers::pi - 0.035);
         const dvec3 direction{0.0, -std::sin(turn), -std::cos(turn)};
-        aim(sun.core, -direction * 5.0, dvec3{0.0});
+        place(*app.get(sun.core.beacon.get()), -direction * 5.0, dvec3{0.0});
         edit(fitted.viewport)->technique = "std";
         const auto plain = both(fitted, sun.node);
         edit(fitted.viewport)->technique = technique();

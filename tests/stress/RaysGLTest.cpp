@@ -51,10 +51,6 @@ TEST_P(RaysGLTest, NoShadowIsLostOrMadeUp) {
     yard(spot.node);
     const auto& lens = perspectiveView({0.0, 5.0, 9.0}, {0.0, 0.0, 0.0});
     const View eye = seen(lens, size, size, 1024);
-    const auto place = [&](const scene::Node& beacon, const dvec3& from, const dvec3& to) {
-        edit(*app.get(scene::Ref<scene::Transform>{beacon.core->id}))->matrix =
-            math::toAffine(glm::inverse(math::lookAt(from, to, {0.0, 1.0, 0.0})));
-    };
     int shadowed = 0;
     int degenerate = 0;
     double wrong = 0.0;

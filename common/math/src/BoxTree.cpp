@@ -30,7 +30,7 @@ bool BoxTree::any(std::span<const Plane> planes) const noexcept {
     while (count > 0) {
         const std::uint32_t index = open[--count];
         const Node& node = nodes_[index];
-        std::uint32_t left = planes.size() >= 32 ? ~0U : (1U << planes.size()) - 1U;
+        std::uint32_t left = allOf(planes);
         if (!cut(node.box, planes, left)) continue;
         if (left == 0) return true;
         if (node.count == 0) {
@@ -39,7 +39,7 @@ bool BoxTree::any(std::span<const Plane> planes) const noexcept {
             continue;
         }
         for (std::uint32_t i = 0; i < node.count; ++i) {
-            left = planes.size() >= 32 ? ~0U : (1U << planes.size()) - 1U;
+            left = allOf(planes);
             if (cut(boxes_[order_[node.first + i]], planes, left)) return true;
         }
     }

@@ -21,6 +21,10 @@ Affine operator*(const Affine& a, const Affine& b) noexcept {
             .linear = mat3{linear * dmat3{b.linear}}};
 }
 
+bool isFinite(const dvec3& point) noexcept {
+    return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
+}
+
 bool isFinite(const dmat4& matrix) noexcept {
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)

@@ -100,7 +100,7 @@ struct Light {
     vec4 attenuation;  // constant, linear, quadratic
     vec4 cone;         // strength = (x * cosine + y)^2
     vec4 ambient;      // w: 1 where it has shadow maps, else 0
-    uvec4 maps;        // x: index among the scene's lights
+    uvec4 index;       // x: among the scene's lights
 };
 layout(std140, binding = 1) uniform LightBlock {
     Light lights[64];
@@ -253,7 +253,7 @@ vec3 mappedNormal(vec3 normal, vec2 uv) {
 vec3 lit(int i, vec3 toLight, vec3 reaching, ShadowPoint point, vec3 normal, vec3 face, vec3 toEye,
          vec3 diffuse) {
 #ifdef SCOPED_LIGHTS
-    uint bit = lights[i].maps.x;
+    uint bit = lights[i].index.x;
     if (((bit < 32u ? vLights.x : vLights.y) & (1u << (bit & 31u))) == 0u) return vec3(0.0);
 #endif
     vec3 ambient = lights[i].ambient.rgb * diffuse;

@@ -17,7 +17,7 @@ struct LightBlock {
     math::vec4 attenuation{1.0F, 0.0F, 0.0F, 0.0F};
     math::vec4 cone{0.0F};
     math::vec4 ambient{0.0F};
-    glm::uvec4 maps{0U};
+    glm::uvec4 index{0U};
 };
 
 struct ViewBlock {
@@ -91,7 +91,7 @@ Lights::Uploaded Lights::upload(const scene::FlatScene& flat, const math::View& 
         }
         LightBlock block = blockFor(use, shape, origin);
         block.ambient.w = maps != nullptr && maps->count(use.node->id()) > 0 ? 1.0F : 0.0F;
-        block.maps = {static_cast<std::uint32_t>(i), 0U, 0U, 0U};
+        block.index = {static_cast<std::uint32_t>(i), 0U, 0U, 0U};
         order[static_cast<std::size_t>(done.count)] = use.node->id();
         used |= std::uint64_t{1} << i;
         blocks[static_cast<std::size_t>(done.count++)] = block;

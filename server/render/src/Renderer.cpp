@@ -50,6 +50,14 @@ struct Renderer::Parts {
         SceneDrawer* drawer = nullptr;
         std::vector<const scene::ShadowState*> states = {};
         math::dvec3 origin{0.0};
+
+        /// Without lights and maps.
+        SceneDrawer::ColorPass pass() const {
+            return {.clipFromOrigin = clipFromOrigin(camera.view, origin),
+                    .clipFromWorld = camera.view.clipFromWorld(),
+                    .eyeFromWorld = camera.view.eyeFromWorld,
+                    .eyeWorld = camera.view.eyeWorld()};
+        }
     };
 
     void warnOnce(const std::string& text) {
@@ -62,6 +70,8 @@ struct Renderer::Parts {
                                                      field::Id group) const;
     Result<void> drawViewport(const scene::Window& window, const scene::Viewport& viewport,
                               FrameStatistics& done, double time);
+    /// Into these pixels of the target, whose depth is cleared.
+    void beginPass(const Target& target, const scene::PixelRect& pixels) const;
     shadow::ShadowStatistics prepareMaps(const Seen& seen, const scene::Viewport& viewport);
     void combine(const Target& target, const Seen& seen,
                  const shadow::ShadowMaps::Arranged& arranged);
@@ -268,28 +278,14 @@ Result<void> Renderer::Parts::drawViewport(const scene::Window& window,
         warnOnce(std::to_string(drawer.flat().lightsLeftOut()) +
                  " lights more than the 64 a scene can have are left out");
 
-    gl.BindFramebuffer(GL_FRAMEBUFFER, target.drawn());
-    gl.Viewport(seen.pixels.x, seen.pixels.y, seen.pixels.width, seen.pixels.height);
-    gl.Scissor(seen.pixels.x, seen.pixels.y, seen.pixels.width, seen.pixels.height);
-    gl.Enable(GL_SCISSOR_TEST);
-    gl.Enable(GL_DEPTH_TEST);
-    gl.DepthFunc(GL_GREATER);
-    gl.DepthMask(GL_TRUE);
-    gl.ClearDepthf(0.0F);
-    gl.ClearStencil(0);
-    gl.Clear(GLbitfield{GL_DEPTH_BUFFER_BIT} |
-             (foreign ? GLbitfield{GL_STENCIL_BUFFER_BIT} : GLbitfield{0}));
+    beginPass(target, seen.pixels);
 
-    const SceneDrawer::ColorPass pass{
-        .clipFromOrigin = clipFromOrigin(seen.camera.view, seen.origin),
-        .clipFromWorld = seen.camera.view.clipFromWorld(),
-        .eyeFromWorld = seen.camera.view.eyeFromWorld,
-        .eyeWorld = seen.camera.view.eyeWorld(),
-        .scopedLights = lit.scoped,
-        .maps = lit.maps,
-        .lights = lit.count,
-        .directionalLights = lit.directional,
-        .time = time};
+    SceneDrawer::ColorPass pass = seen.pass();
+    pass.scopedLights = lit.scoped;
+    pass.maps = lit.maps;
+    pass.lights = lit.count;
+    pass.directionalLights = lit.directional;
+    pass.time = time;
     const auto count = [&](const PassStatistics& drawn) {
         done.triangles += drawn.triangles;
         done.chunks += drawn.chunks;
@@ -306,6 +302,20 @@ Result<void> Renderer::Parts::drawViewport(const scene::Window& window,
     return {};
 }
 
+void Renderer::Parts::beginPass(const Target& target, const scene::PixelRect& pixels) const {
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target.drawn());
+    gl.Viewport(pixels.x, pixels.y, pixels.width, pixels.height);
+    gl.Scissor(pixels.x, pixels.y, pixels.width, pixels.height);
+    gl.Enable(GL_SCISSOR_TEST);
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_GREATER);
+    gl.DepthMask(GL_TRUE);
+    gl.ClearDepthf(0.0F);
+    gl.ClearStencil(0);
+    gl.Clear(GLbitfield{GL_DEPTH_BUFFER_BIT} |
+             (target.shape().stencil ? GLbitfield{GL_STENCIL_BUFFER_BIT} : GLbitfield{0}));
+}
+
 Result<std::optional<shadow_fit::DepthSpan>> Renderer::Parts::depthSpan(
     const scene::Window& window, const scene::ShadowViewport& viewport, bool drawn) {
     auto looked = look(window, viewport);
@@ -314,22 +324,10 @@ Result<std::optional<shadow_fit::DepthSpan>> Renderer::Parts::depthSpan(
     auto made = target(window, seen.drawer->batches().hasForeign());
     if (!made) return tl::unexpected{std::move(made).error()};
     const Target& target = **made;
-    const math::View& view = seen.camera.view;
-    const SceneDrawer::ColorPass pass{.clipFromOrigin = clipFromOrigin(view, seen.origin),
-                                      .clipFromWorld = view.clipFromWorld(),
-                                      .eyeFromWorld = view.eyeFromWorld,
-                                      .eyeWorld = view.eyeWorld()};
+    const SceneDrawer::ColorPass pass = seen.pass();
     if (!drawn) {
         seen.drawer->useOrigin(seen.origin);
-        gl.BindFramebuffer(GL_FRAMEBUFFER, target.drawn());
-        gl.Viewport(seen.pixels.x, seen.pixels.y, seen.pixels.width, seen.pixels.height);
-        gl.Scissor(seen.pixels.x, seen.pixels.y, seen.pixels.width, seen.pixels.height);
-        gl.Enable(GL_SCISSOR_TEST);
-        gl.Enable(GL_DEPTH_TEST);
-        gl.DepthFunc(GL_GREATER);
-        gl.DepthMask(GL_TRUE);
-        gl.ClearDepthf(0.0F);
-        gl.Clear(GLbitfield{GL_DEPTH_BUFFER_BIT});
+        beginPass(target, seen.pixels);
         gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
         seen.drawer->drawDepth(pass);
         gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -337,14 +335,13 @@ Result<std::optional<shadow_fit::DepthSpan>> Renderer::Parts::depthSpan(
     auto span = seen.drawer->blendedDepth(pass);
     if (const auto depths = reducer.reduce(target.depth(gl), seen.pixels)) {
         // From clip depth d = (p z + q) / (r z + s) to -z.
-        const math::dmat4& m = view.clipFromEye;
+        const math::dmat4& m = seen.camera.view.clipFromEye;
         const auto depthOf = [&](double d) {
             return -(m[3][2] - d * m[3][3]) / (d * m[2][3] - m[2][2]);
         };
         const shadow_fit::DepthSpan opaque{.near = depthOf(depths->second),
                                            .far = depthOf(depths->first)};
-        if (!span) span = opaque;
-        span = {.near = std::min(span->near, opaque.near), .far = std::max(span->far, opaque.far)};
+        span = together(span, opaque);
     }
     if (span && !(std::isfinite(span->near) && std::isfinite(span->far))) span.reset();
     if (span) span->near = std::max(span->near, 0.0);
@@ -362,10 +359,20 @@ Result<std::optional<shadow_fit::DepthSpan>> Renderer::depthSpan(const scene::Wi
             continue;
         auto span = parts_->depthSpan(window, *viewport, drawn);
         if (!span) return tl::unexpected{std::move(span).error()};
-        if (!*span) continue;
-        if (!all) all = *span;
-        all = {.near = std::min(all->near, (*span)->near), .far = std::max(all->far, (*span)->far)};
+        all = together(all, *span);
     }
+    return all;
+}
+
+Result<std::optional<shadow_fit::DepthSpan>> Renderer::depthSpan(bool drawn) {
+    Result<std::optional<shadow_fit::DepthSpan>> all;
+    parts_->scene.forEach([&](const field::FieldContainer& container) {
+        const auto* window = dynamic_cast<const scene::Window*>(&container);
+        if (window == nullptr || !all) return;
+        auto span = depthSpan(*window, drawn);
+        if (span) span = together(*all, *span);
+        all = std::move(span);
+    });
     return all;
 }
 
@@ -483,11 +490,9 @@ Result<image::Image> Renderer::shadowFactor(const scene::Window& window, std::si
     gl.ClearDepthf(0.0F);
     gl.ClearColor(128.0F / 255.0F, 0.0F, 0.0F, 0.0F);
     gl.Clear(GLbitfield{GL_DEPTH_BUFFER_BIT} | GLbitfield{GL_COLOR_BUFFER_BIT});
-    drawer.drawFactor({.clipFromOrigin = clipFromOrigin(seen.camera.view, seen.origin),
-                       .clipFromWorld = seen.camera.view.clipFromWorld(),
-                       .eyeFromWorld = seen.camera.view.eyeFromWorld,
-                       .eyeWorld = seen.camera.view.eyeWorld(),
-                       .maps = lit.maps});
+    SceneDrawer::ColorPass pass = seen.pass();
+    pass.maps = lit.maps;
+    drawer.drawFactor(pass);
     image::Image picture = image::blank(at.width, at.height, 1);
     gl.ReadPixels(0, 0, at.width, at.height, GL_RED, GL_UNSIGNED_BYTE, picture.pixels.data());
     turnOver(picture);

@@ -139,10 +139,13 @@ void SceneDrawer::setFaces(const BatchState& state) {
 }
 
 void SceneDrawer::flush(std::span<const BatchState> states,
-                        const std::function<void(const BatchState&)>& use, bool positionsOnly) {
+                        const std::function<void(const BatchState&)>& use, const Flush& how) {
+    const auto drawn = [&](const BatchState& state) {
+        return how.foreign || state.foreign == nullptr;
+    };
     commands_.clear();
     for (std::size_t i = 0; i < states.size(); ++i)
-        if (states[i].foreign == nullptr)
+        if (drawn(states[i]))
             for (const Item& item : items_[i]) commands_.push_back(item.command);
     if (commands_.empty()) return;
     gl_.NamedBufferData(commandBuffer_.id(),
@@ -152,10 +155,10 @@ void SceneDrawer::flush(std::span<const BatchState> states,
     std::size_t first = 0;
     for (std::size_t i = 0; i < states.size(); ++i) {
         const BatchState& state = states[i];
-        if (items_[i].empty() || state.foreign != nullptr) continue;
+        if (items_[i].empty() || !drawn(state)) continue;
         use(state);
         setFaces(state);
-        gl_.BindVertexArray(meshes_.vertexArray(state.format, positionsOnly));
+        gl_.BindVertexArray(meshes_.vertexArray(state.format, how.positionsOnly));
         gl_.MultiDrawElementsIndirect(state.primitive, GL_UNSIGNED_INT,
                                       reinterpret_cast<const void*>(first * sizeof(DrawCommand)),
                                       static_cast<GLsizei>(items_[i].size()), 0);
@@ -189,8 +192,7 @@ PassStatistics SceneDrawer::drawOpaque(const ColorPass& pass) {
     for (std::size_t i = 0; i < states.size(); ++i)
         std::sort(items_[i].begin(), items_[i].end(),
                   [](const Item& a, const Item& b) { return a.distance < b.distance; });
-    flush(
-        states, [&](const BatchState& state) { useSurface(state, pass); }, false);
+    flush(states, [&](const BatchState& state) { useSurface(state, pass); }, {});
     for (std::size_t i = 0; i < states.size(); ++i)
         if (states[i].foreign != nullptr && !items_[i].empty())
             drawForeign(states[i], items_[i], pass);
@@ -271,35 +273,27 @@ void SceneDrawer::drawForeign(const BatchState& state, const std::vector<Item>& 
 
 void SceneDrawer::drawFactor(const ColorPass& pass) {
     gather(pass, false);
-    const auto states = batches_.batches();
-    // A foreign material's geometry is drawn as it stands: its own vertex shader is not asked.
-    std::vector<BatchState> plain(states.begin(), states.end());
-    for (BatchState& state : plain) state.foreign = nullptr;
-    flush(
-        plain,
-        [&](const BatchState& state) {
-            Variant variant{
-                .pass = Variant::Pass::factor,
-                .format = state.format,
-                .features = state.features & (Variant::alphaMask | Variant::diffuseMap)};
-            useMaps(variant, pass, 1);
-            const GLuint program = programs_.mesh(variant);
-            gl_.UseProgram(program);
-            gl_.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, &pass.clipFromOrigin[0][0]);
-            batches_.bindMaterial(state.material);
-            gl_.BindTextures(0, 3, state.textures.data());
-        },
-        false);
+    flush(batches_.batches(),
+          [&](const BatchState& state) {
+              Variant variant{
+                  .pass = Variant::Pass::factor,
+                  .format = state.format,
+                  .features = state.features & (Variant::alphaMask | Variant::diffuseMap)};
+              useMaps(variant, pass, 1);
+              const GLuint program = programs_.mesh(variant);
+              gl_.UseProgram(program);
+              gl_.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, &pass.clipFromOrigin[0][0]);
+              batches_.bindMaterial(state.material);
+              gl_.BindTextures(0, 3, state.textures.data());
+          },
+          {.foreign = true});
 }
 
 void SceneDrawer::drawDepth(const ColorPass& pass) {
     gather(pass, false);
-    const auto states = batches_.batches();
-    // A foreign material's geometry is drawn as it stands: its own vertex shader is not asked.
-    std::vector<BatchState> plain(states.begin(), states.end());
-    for (BatchState& state : plain) state.foreign = nullptr;
-    flush(
-        plain, [&](const BatchState& state) { useDepth(state, pass.clipFromOrigin); }, true);
+    flush(batches_.batches(),
+          [&](const BatchState& state) { useDepth(state, pass.clipFromOrigin); },
+          {.positionsOnly = true, .foreign = true});
 }
 
 std::optional<shadow_fit::DepthSpan> SceneDrawer::blendedDepth(const ColorPass& pass) {
@@ -313,9 +307,7 @@ std::optional<shadow_fit::DepthSpan> SceneDrawer::blendedDepth(const ColorPass& 
         const math::Box& box = chunks_.bounds(use);
         for (int i = 0; i < 8; ++i) {
             const double depth = -(pass.eyeFromWorld * math::dvec4{box.corner(i), 1.0}).z;
-            if (!span) span = {.near = depth, .far = depth};
-            span->near = std::min(span->near, depth);
-            span->far = std::max(span->far, depth);
+            span = together(span, shadow_fit::DepthSpan{.near = depth, .far = depth});
         }
     });
     return span;
@@ -344,8 +336,8 @@ shadow::CasterSource::Drawn SceneDrawer::drawCasters(const Pass& pass) {
         ++done.chunks;
         done.triangles += drawable.command.count / 3;
     });
-    flush(
-        states, [&](const BatchState& state) { useDepth(state, pass.clipFromOrigin); }, true);
+    flush(states, [&](const BatchState& state) { useDepth(state, pass.clipFromOrigin); },
+          {.positionsOnly = true});
     return done;
 }
 

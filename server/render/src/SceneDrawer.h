@@ -73,8 +73,14 @@ private:
     void uploadInstances();
     void writeInstance(std::size_t index);
     PassStatistics gather(const ColorPass& pass, bool blended);
+    /// What of a mesh a pass reads, and whose meshes it draws.
+    struct Flush {
+        bool positionsOnly = false;
+        /// Materials with shaders of their own as their geometry stands; else they are left out.
+        bool foreign = false;
+    };
     void flush(std::span<const BatchState> states,
-               const std::function<void(const BatchState&)>& use, bool positionsOnly);
+               const std::function<void(const BatchState&)>& use, const Flush& how);
     void setFaces(const BatchState& state);
     void useDepth(const BatchState& state, const math::mat4& clipFromOrigin);
     void useSurface(const BatchState& state, const ColorPass& pass);

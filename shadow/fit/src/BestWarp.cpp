@@ -13,8 +13,6 @@ using math::dmat3;
 using math::dvec2;
 using math::dvec3;
 
-double cross(const dvec2& a, const dvec2& b) { return a.x * b.y - a.y * b.x; }
-
 /// A sample on the light's plane.
 struct Point {
     dvec2 at{0.0};

@@ -15,8 +15,6 @@ using math::dvec2;
 using math::dvec3;
 using math::dvec4;
 
-double cross(const dvec2& a, const dvec2& b) { return a.x * b.y - a.y * b.x; }
-
 /// A cone of nearly half a sphere has no useful frustum: 85 degrees is as far as one map goes.
 double usableHalfAngle(const LightShape& light) {
     return std::clamp(light.halfAngle, 0.01, 1.4835);

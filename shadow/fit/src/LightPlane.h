@@ -9,6 +9,10 @@
 
 namespace gnomon::shadow_fit {
 
+inline double cross(const math::dvec2& a, const math::dvec2& b) noexcept {
+    return a.x * b.y - a.y * b.x;
+}
+
 /// A light's rays, each a point of a plane: what every shadow map of that light has in common. A
 /// map is this plane seen through a projective map of the plane, and a depth.
 ///

@@ -11,8 +11,6 @@ using math::dmat3;
 using math::dvec2;
 using math::dvec3;
 
-double cross(const dvec2& a, const dvec2& b) { return a.x * b.y - a.y * b.x; }
-
 /// Direction (unit) of a side of the smallest rectangle around the hull.
 dvec2 smallestRectangleSide(std::span<const dvec2> hull) {
     dvec2 best{1.0, 0.0};

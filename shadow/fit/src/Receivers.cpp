@@ -13,10 +13,6 @@ namespace {
 using math::dvec3;
 using math::Plane;
 
-bool isFinite(const dvec3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
 /// Planes around what is seen and lit.
 struct Volume {
     std::array<Plane, 18> planes = {};
@@ -68,7 +64,7 @@ void Receivers::addPiece(std::span<const dvec3> points, int flat) {
     Piece piece{.first = static_cast<std::uint32_t>(points_.size()), .flat = flat};
     for (const dvec3& p : points) {
         const auto same = [&](const dvec3& q) { return p == q; };
-        if (isFinite(p) && std::none_of(points_.begin() + piece.first, points_.end(), same))
+        if (math::isFinite(p) && std::none_of(points_.begin() + piece.first, points_.end(), same))
             points_.push_back(p);
     }
     piece.count = static_cast<std::uint32_t>(points_.size()) - piece.first;
@@ -98,7 +94,7 @@ void Receivers::add(const math::View& view, const LightShape* light, const math:
         if (inside) {
             std::array<dvec3, 8> corners;
             for (int i = 0; i < 8; ++i) corners[static_cast<std::size_t>(i)] = box.corner(i);
-            if (flat < 0 && isFinite(box.min) && isFinite(box.max))
+            if (flat < 0 && math::isFinite(box.min) && math::isFinite(box.max))
                 addWhole(corners, flat);
             else
                 addPiece(corners, flat);

@@ -9,10 +9,6 @@ namespace {
 
 using math::dvec3;
 
-bool isFinite(const dvec3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
 /// A part of a ray within a box.
 struct Passage {
     double entry = 0.0, exit = 0.0, density = 0.0;
@@ -62,7 +58,7 @@ std::vector<Sample> samplePicture(std::span<const math::View> views, const Boxes
             const double chance = std::fmod((i + 0.5) * 0.6180339887498949, 1.0);
             const double t = endOf(passages, glm::length(direction), -std::log(1.0 - chance));
             const dvec3 at = from + direction * t;
-            if (!(t <= 1.0) || !isFinite(at)) continue;
+            if (!(t <= 1.0) || !math::isFinite(at)) continue;
             const double far = -(view.eyeFromWorld * math::dvec4{at, 1.0}).z;
             if (depth && !(far >= depth->near && far <= depth->far)) continue;
             samples.push_back({.world = at});

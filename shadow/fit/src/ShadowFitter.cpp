@@ -41,7 +41,7 @@ struct ShadowFitter::Plan {
     const FitInfo& info;
     std::string filter = {};
     std::optional<DepthSpan> depth = {};
-    std::vector<Sample> samples = {};
+    std::vector<Sample> samples = {};  ///< weighed anew for each light
     math::dvec3 origin{0.0};
     int mapSize = 0, pageSize = 0;
 };
@@ -239,7 +239,7 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group,
 }
 
 void ShadowFitter::fit(field::Aspect& session, const Group& group,
-                       const scene::FlatScene::LightUse& use, const Plan& plan) {
+                       const scene::FlatScene::LightUse& use, Plan& plan) {
     Held& held = states_[{.light = use.node->id(), .group = group.id}];
     held.used = round_;
     const auto* state = session.get(scene::Ref<scene::ShadowState>{held.state});
@@ -268,13 +268,12 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group,
         receivers_.dropUnshadowed(light, boxes.tree);
     else if (!receivers_.mayBeShadowed(light, boxes.tree))
         receivers_.clear();
-    auto samples = plan.samples;
-    weigh(samples, light, boxes);
+    weigh(plan.samples, light, boxes);
     Fitted fitted = plan.info.fit(
         {.light = light,
          .views = group.views,
          .receivers = receivers_,
-         .samples = samples,
+         .samples = plan.samples,
          .scene = plan.seen.flat.bounds(),
          .mapSize = plan.mapSize,
          .settings = {.range = plan.viewport.range, .cascades = plan.viewport.cascades}});

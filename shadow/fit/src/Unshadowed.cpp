@@ -18,6 +18,12 @@ constexpr int directions = 48;     ///< that the outline is looked at from
 constexpr int mostTests = 400;     ///< then what is left stays
 constexpr double smallest = 0.01;  ///< pieces of this share of the outline are not cut
 
+/// Where a light sees a point; not a number at a spot or behind it.
+dvec2 placeOf(const LightPlane& plane, const dvec3& p) {
+    const dvec3 h = plane.at(p);
+    return h.z > 0.0 ? dvec2{h} / h.z : dvec2{std::numeric_limits<double>::quiet_NaN()};
+}
+
 /// What lies between a flat piece and the light.
 class Above {
 public:
@@ -71,12 +77,8 @@ std::vector<dvec3> halfOf(std::span<const dvec3> piece, int axis, double middle,
 
 /// Only the corners of the outline, as the light sees it: cuts leave points within.
 std::vector<dvec3> cornersOf(const std::vector<dvec3>& points, const LightPlane& plane) {
-    const auto onPlane = [&](const dvec3& p) {
-        const dvec3 h = plane.at(p);
-        return dvec2{h} / h.z;
-    };
     std::vector<dvec2> flat;
-    for (const dvec3& p : points) flat.push_back(onPlane(p));
+    for (const dvec3& p : points) flat.push_back(placeOf(plane, p));
     const auto hull = convexHull(flat);
     std::vector<dvec3> corners;
     for (const dvec2& corner : hull)
@@ -103,9 +105,8 @@ bool Receivers::mayBeShadowed(const LightShape& light, const math::BoxTree& cast
         const auto corners = std::span{points_}.subspan(piece.first, piece.count);
         onPlane.clear();
         for (const dvec3& p : corners) {
-            const dvec3 h = plane.at(p);
-            if (!(h.z > 0.0)) return true;  // at or behind a spot: anywhere
-            onPlane.push_back(dvec2{h} / h.z);
+            onPlane.push_back(placeOf(plane, p));
+            if (std::isnan(onPlane.back().x)) return true;  // at or behind a spot: anywhere
         }
         if (++tests > mostTests || above.holds(casters, corners, onPlane, piece.flat)) return true;
     }
@@ -116,15 +117,10 @@ void Receivers::dropUnshadowed(const LightShape& light, const math::BoxTree& cas
     if (points_.empty() || casters.bounds().empty()) return;
     const LightPlane plane{light};
     std::vector<dvec2> onPlane;
-    const auto project = [&](const dvec3& p) {
-        const dvec3 h = plane.at(p);
-        onPlane.push_back(h.z > 0.0 ? dvec2{h} / h.z
-                                    : dvec2{std::numeric_limits<double>::quiet_NaN()});
-        return h.z > 0.0;
-    };
-    bool all = true;
-    for (const dvec3& p : points_) all = project(p) && all;
-    if (!all) return;  // at or behind a spot: anywhere
+    for (const dvec3& p : points_) {
+        onPlane.push_back(placeOf(plane, p));
+        if (std::isnan(onPlane.back().x)) return;  // at or behind a spot: anywhere
+    }
     Above above{light, plane, 1e-6 * casters.bounds().radius()};
 
     enum class State : std::uint8_t { open, kept, dropped };
@@ -159,7 +155,8 @@ void Receivers::dropUnshadowed(const LightShape& light, const math::BoxTree& cas
             addPiece(half, flat);
             if (pieces_.size() == before) continue;
             states.push_back(State::open);
-            while (onPlane.size() < points_.size()) project(points_[onPlane.size()]);
+            while (onPlane.size() < points_.size())
+                onPlane.push_back(placeOf(plane, points_[onPlane.size()]));
         }
         return true;
     };

@@ -92,7 +92,7 @@ private:
         };
         Open open[64];  // the tree is balanced: never deeper
         std::size_t count = 0;
-        open[count++] = {0U, planes.size() >= 32 ? ~0U : (1U << planes.size()) - 1U};
+        open[count++] = {0U, allOf(planes)};
         while (count > 0) {
             Open at = open[--count];
             const Node& node = nodes_[at.node];
@@ -114,6 +114,10 @@ private:
         }
     }
 
+    /// A bit for each.
+    static std::uint32_t allOf(std::span<const Plane> planes) noexcept {
+        return planes.size() >= 32 ? ~0U : (1U << planes.size()) - 1U;
+    }
     /// False where the box is outside; else the planes that cut it are left in @p which.
     static bool cut(const Box& box, std::span<const Plane> planes, std::uint32_t& which) noexcept {
         if (box.empty()) return false;

@@ -29,6 +29,7 @@ dmat4 toMatrix(const Affine& affine) noexcept;
 Affine toAffine(const dmat4& matrix) noexcept;
 /// Composed in double and rounded once.
 Affine operator*(const Affine& a, const Affine& b) noexcept;
+bool isFinite(const dvec3& point) noexcept;
 bool isFinite(const dmat4& matrix) noexcept;
 
 /// An axis-aligned box; empty when min > max in any axis, as a new one is.

@@ -67,6 +67,8 @@ public:
     /// @param drawn  as the last draw() left it; else depth alone is drawn first
     /// Errors: as draw().
     Result<std::optional<shadow_fit::DepthSpan>> depthSpan(const scene::Window& window, bool drawn);
+    /// Of all windows of the scene together.
+    Result<std::optional<shadow_fit::DepthSpan>> depthSpan(bool drawn);
     /// Waits until everything drawn is done.
     void finish() const;
 

@@ -4,6 +4,7 @@
 #include <gnomon/math/ConvexBody.h>
 #include <gnomon/math/View.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -17,6 +18,12 @@ struct LightShape;
 struct DepthSpan {
     double near = 0.0, far = 0.0;
 };
+/// From the nearest of both to the farthest; nothing where neither sees anything.
+inline std::optional<DepthSpan> together(const std::optional<DepthSpan>& a,
+                                         const std::optional<DepthSpan>& b) {
+    if (!a || !b) return a ? a : b;
+    return DepthSpan{.near = std::min(a->near, b->near), .far = std::max(a->far, b->far)};
+}
 
 /// What can be seen and lit, as convex pieces that each hold a part of it: the boxes of a scene's
 /// chunks, cut to the view volume and to where the light reaches. Its memory is kept.

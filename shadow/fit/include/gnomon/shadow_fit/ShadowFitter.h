@@ -49,7 +49,7 @@ private:
     void collectGroups(const field::Aspect& session, std::vector<Group>& groups) const;
     void fit(field::Aspect& session, const Group& group, const std::optional<DepthSpan>& depth);
     void fit(field::Aspect& session, const Group& group, const scene::FlatScene::LightUse& use,
-             const Plan& plan);
+             Plan& plan);
     bool keep(const Group& group);
     void dropUnused(field::Aspect& session);
     void warnOnce(const std::string& text);
