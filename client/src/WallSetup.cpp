@@ -49,6 +49,9 @@ void applyShadow(const config::Shadow& from, scene::ShadowViewport& viewport) {
                    linearFromSrgb(from.color[2]), static_cast<float>(from.color[3])};
     viewport.range = static_cast<float>(from.range);
     viewport.cascades = from.cascades;
+    viewport.softness = static_cast<float>(from.softness);
+    viewport.kernelWidth = from.kernelWidth;
+    viewport.kernelSamples = from.kernelSamples;
     viewport.qualityMode = from.qualityMode;
     viewport.depthRange =
         from.qualityMode || from.depthRange == config::DepthRange::exact ? scene::DepthUse::exact

@@ -77,6 +77,9 @@ struct Schema<Shadow> {
         Field{"range", &Shadow::range,
               Rule{.min = 0, .max = 0.8, .openMin = true, .openMax = true}},
         Field{"cascades", &Shadow::cascades, Rule{.min = 2, .max = 8}},
+        Field{"softness", &Shadow::softness, Rule{.min = 0, .max = 1000, .unit = "m"}},
+        Field{"kernel_width", &Shadow::kernelWidth, Rule{.min = 1, .max = 64, .unit = "texels"}},
+        Field{"kernel_samples", &Shadow::kernelSamples, Rule{.min = 0, .max = 64}},
         Field{"quality_mode", &Shadow::qualityMode, anything},
         Field{"depth_range", &Shadow::depthRange, anything},
     };

@@ -80,15 +80,18 @@ GLuint Programs::mesh(const Variant& variant) {
     const bool shadows = (variant.features & Variant::shadows) != 0;
     const std::string_view maps = shadows ? shadow::mapsGlsl() : "";
     const std::string_view lookup = shadows ? shadow::lookupGlsl() : "";
+    const std::string_view shared = shadows ? shadow::findFilter(filter_)->shared : "";
     const std::string_view filter = shadows ? shadow::findFilter(filter_)->glsl : "";
     switch (variant.pass) {
         case Variant::Pass::color:
-            at->second = build("surface", defines, {maps, glsl::meshVertex()},
-                               {glsl::meshCommon(), maps, lookup, filter, glsl::meshColor()});
+            at->second =
+                build("surface", defines, {maps, glsl::meshVertex()},
+                      {glsl::meshCommon(), maps, lookup, shared, filter, glsl::meshColor()});
             break;
         case Variant::Pass::factor:
-            at->second = build("shadow factor", defines, {maps, glsl::meshVertex()},
-                               {glsl::meshCommon(), maps, lookup, filter, glsl::meshFactor()});
+            at->second =
+                build("shadow factor", defines, {maps, glsl::meshVertex()},
+                      {glsl::meshCommon(), maps, lookup, shared, filter, glsl::meshFactor()});
             break;
         case Variant::Pass::depth:
             // Opaque casters need no fragment shader at all.
@@ -131,9 +134,10 @@ GLuint Programs::combine(const shadow::ShadowMaps::Arranged& maps) {
     std::string defines = "#define SHADOWS\n#define PAGED_MAPS\n#define MAPS_PER_LIGHT " +
                           std::to_string(maps.mapsPerLight) + "\n";
     if (maps.perspective) defines += "#define PERSPECTIVE_MAPS\n";
-    program = build("combine", defines, {glsl::coverVertex()},
-                    {glsl::meshCommon(), shadow::mapsGlsl(), shadow::lookupGlsl(),
-                     shadow::findFilter(filter_)->glsl, glsl::combine()});
+    program = build(
+        "combine", defines, {glsl::coverVertex()},
+        {glsl::meshCommon(), shadow::mapsGlsl(), shadow::lookupGlsl(),
+         shadow::findFilter(filter_)->shared, shadow::findFilter(filter_)->glsl, glsl::combine()});
     return program.id();
 }
 

@@ -152,8 +152,21 @@ std::vector<dvec2> convexHull(std::vector<dvec2> points) {
     return hull;
 }
 
+std::vector<dvec2> dilated(std::vector<dvec2> hull, double by) {
+    if (!(by > 0.0)) return hull;
+    const double radius = by / std::cos(std::numbers::pi / 8.0);
+    std::vector<dvec2> around;
+    around.reserve(hull.size() * 8);
+    for (const dvec2& p : hull)
+        for (int i = 0; i < 8; ++i) {
+            const double angle = (i + 0.5) * std::numbers::pi / 4.0;
+            around.push_back(p + radius * dvec2{std::cos(angle), std::sin(angle)});
+        }
+    return convexHull(std::move(around));
+}
+
 Outline outlineOf(const LightPlane& plane, const LightShape& light,
-                  std::span<const dvec3> receivers) {
+                  std::span<const dvec3> receivers, double around) {
     Outline outline;
     std::vector<dvec2> flat;
     flat.reserve(receivers.size());
@@ -177,7 +190,7 @@ Outline outlineOf(const LightPlane& plane, const LightShape& light,
             for (dvec2& p : flat) p = glm::clamp(p, dvec2{-reach}, dvec2{reach});
         }
     }
-    outline.hull = convexHull(std::move(flat));
+    outline.hull = dilated(convexHull(std::move(flat)), around);
     return outline;
 }
 

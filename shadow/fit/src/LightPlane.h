@@ -68,7 +68,8 @@ struct Outline {
     /// Some receivers are at the light itself, where they may be anywhere: the hull is the cone's.
     bool atLight = false;
 };
+/// @param around  how much more than the receivers it holds, in units of the plane
 Outline outlineOf(const LightPlane& plane, const LightShape& light,
-                  std::span<const math::dvec3> receivers);
+                  std::span<const math::dvec3> receivers, double around);
 
 }  // namespace gnomon::shadow_fit

@@ -10,7 +10,7 @@ using math::dvec3;
 
 Ground::Ground(const FitInput& input)
     : plane{input.light},
-      outline{outlineOf(plane, input.light, input.receivers.points())},
+      outline{outlineOf(plane, input.light, input.receivers.points(), input.reach)},
       depth{plane.depthOf(input.receivers.points(), input.scene)},
       uniform{uniformMap(outline.hull, input.mapSize)} {}
 

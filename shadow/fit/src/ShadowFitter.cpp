@@ -1,5 +1,6 @@
 #include <gnomon/scene/CameraView.h>
 #include <gnomon/shadow_fit/ShadowFitter.h>
+#include <gnomon/shadow_fit/Softness.h>
 
 #include <algorithm>
 #include <array>
@@ -8,8 +9,11 @@
 namespace gnomon::shadow_fit {
 namespace {
 
-/// What the fits know of filters: their names, which travel in ShadowState.
-constexpr std::array<std::string_view, 5> filterNames{"hard", "pcf", "ppcf", "vsm", "evsm"};
+std::vector<std::string_view> filterNames() {
+    std::vector<std::string_view> names;
+    for (const FilterUse& use : filterUses()) names.push_back(use.name);
+    return names;
+}
 
 /// The origin a group draws relative to moves in steps, so that a moving head does not change the
 /// bits of maps that could be kept. A thousandth of a millimetre of float resolution at this range.
@@ -39,7 +43,7 @@ struct ShadowFitter::Plan {
     const scene::ShadowViewport& viewport;
     const Scene& seen;
     const FitInfo& info;
-    std::string filter = {};
+    const FilterUse& filter;
     std::optional<DepthSpan> depth = {};
     std::vector<Sample> samples = {};  ///< weighed anew for each light
     math::dvec3 origin{0.0};
@@ -203,7 +207,7 @@ void ShadowFitter::collectGroups(const field::Aspect& session, std::vector<Group
 void ShadowFitter::fit(field::Aspect& session, const Group& group,
                        const std::optional<DepthSpan>& depth) {
     const auto& viewport = *session.get(scene::Ref<scene::ShadowViewport>{group.viewport});
-    auto technique = parseTechnique(viewport.technique.get(), filterNames);
+    auto technique = parseTechnique(viewport.technique.get(), filterNames());
     if (!technique) return warnOnce(technique.error().what + "; shadows are off");
     if (technique->none()) return;
     const auto& infos = fits();
@@ -212,7 +216,7 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group,
     Plan plan{.viewport = viewport,
               .seen = *scenes_.at(group.root),
               .info = info,
-              .filter = std::move(technique->filter),
+              .filter = *findFilterUse(technique->filter),
               .depth = depth};
     if (info.sampled)
         plan.samples =
@@ -264,9 +268,13 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group,
             receive();
         }
     }
+    const double softness =
+        plan.viewport.softness > 0.0F ? plan.viewport.softness.get() : softnessOf(light);
+    const double reach = lookupReach(plan.filter.spread, light, softness, receivers_.points(),
+                                     plan.seen.flat.bounds());
     if (plan.info.shadowedOnly)
-        receivers_.dropUnshadowed(light, boxes.tree);
-    else if (!receivers_.mayBeShadowed(light, boxes.tree))
+        receivers_.dropUnshadowed(light, boxes.tree, reach);
+    else if (!receivers_.mayBeShadowed(light, boxes.tree, reach))
         receivers_.clear();
     weigh(plan.samples, light, boxes);
     Fitted fitted = plan.info.fit(
@@ -276,7 +284,8 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group,
          .samples = plan.samples,
          .scene = plan.seen.flat.bounds(),
          .mapSize = plan.mapSize,
-         .settings = {.range = plan.viewport.range, .cascades = plan.viewport.cascades}});
+         .settings = {.range = plan.viewport.range, .cascades = plan.viewport.cascades},
+         .reach = reach});
     std::vector<math::dmat4> maps;
     for (const FittedMap& map : fitted.maps) {
         if (!math::isFinite(map.clipFromWorld)) {
@@ -289,10 +298,17 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group,
     auto e = edit(*state);
     e->light = *use.node;
     e->group = field::WeakRef<field::FieldContainer>{group.id};
-    e->filter = plan.filter;
+    e->filter = std::string{plan.filter.name};
     e->mapSize = fitted.mapSize > 0 ? fitted.mapSize : plan.mapSize;
     e->pageSize = std::min(plan.pageSize, e->mapSize.get());
     e->origin = plan.origin;
+    e->source = light.kind == LightKind::directional ? math::dvec4{-light.direction, 0.0}
+                                                     : math::dvec4{light.position, 1.0};
+    e->extent = static_cast<float>(extentOf(light));
+    e->softness = static_cast<float>(softness);
+    e->reach = static_cast<float>(reach);
+    e->kernelWidth = plan.viewport.kernelWidth;
+    e->kernelSamples = plan.viewport.kernelSamples;
     e->degenerate = fitted.degenerate;
     e->clipFromWorld.assign(std::move(maps));
 }

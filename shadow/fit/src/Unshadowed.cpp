@@ -28,8 +28,9 @@ dvec2 placeOf(const LightPlane& plane, const dvec3& p) {
 class Above {
 public:
     /// @param slack  how far above the piece something must be, metres
-    Above(const LightShape& light, const LightPlane& plane, double slack)
-        : light_{light}, plane_{plane}, slack_{slack} {}
+    /// @param reach  how near to a ray, in units of the plane
+    Above(const LightShape& light, const LightPlane& plane, double slack, double reach)
+        : light_{light}, plane_{plane}, slack_{slack}, reach_{reach} {}
 
     /// False where nothing can shadow the piece.
     bool holds(const math::BoxTree& casters, std::span<const dvec3> piece,
@@ -47,7 +48,8 @@ public:
         for (std::size_t i = 0; i < hull.size(); ++i) {
             const dvec2 edge = hull[(i + 1) % hull.size()] - hull[i];
             const dvec2 inward{-edge.y, edge.x};
-            planes_.push_back(plane_.through({inward, -glm::dot(inward, hull[i])}));
+            planes_.push_back(
+                plane_.through({inward, reach_ * glm::length(inward) - glm::dot(inward, hull[i])}));
         }
         return casters.any(planes_);
     }
@@ -56,6 +58,7 @@ private:
     const LightShape& light_;
     const LightPlane& plane_;
     double slack_;
+    double reach_;
     std::vector<Plane> planes_;
 };
 
@@ -92,13 +95,14 @@ std::vector<dvec3> cornersOf(const std::vector<dvec3>& points, const LightPlane&
 
 }  // namespace
 
-bool Receivers::mayBeShadowed(const LightShape& light, const math::BoxTree& casters) const {
+bool Receivers::mayBeShadowed(const LightShape& light, const math::BoxTree& casters,
+                              double reach) const {
     if (casters.bounds().empty()) return false;
     const auto isFlat = [](const Piece& piece) { return piece.flat >= 0; };
     // What has a volume may shadow itself.
     if (!std::all_of(pieces_.begin(), pieces_.end(), isFlat)) return true;
     const LightPlane plane{light};
-    Above above{light, plane, 1e-6 * casters.bounds().radius()};
+    Above above{light, plane, 1e-6 * casters.bounds().radius(), reach};
     std::vector<dvec2> onPlane;
     int tests = 0;
     for (const Piece& piece : pieces_) {
@@ -113,7 +117,8 @@ bool Receivers::mayBeShadowed(const LightShape& light, const math::BoxTree& cast
     return false;
 }
 
-void Receivers::dropUnshadowed(const LightShape& light, const math::BoxTree& casters) {
+void Receivers::dropUnshadowed(const LightShape& light, const math::BoxTree& casters,
+                               double reach) {
     if (points_.empty() || casters.bounds().empty()) return;
     const LightPlane plane{light};
     std::vector<dvec2> onPlane;
@@ -121,7 +126,7 @@ void Receivers::dropUnshadowed(const LightShape& light, const math::BoxTree& cas
         onPlane.push_back(placeOf(plane, p));
         if (std::isnan(onPlane.back().x)) return;  // at or behind a spot: anywhere
     }
-    Above above{light, plane, 1e-6 * casters.bounds().radius()};
+    Above above{light, plane, 1e-6 * casters.bounds().radius(), reach};
 
     enum class State : std::uint8_t { open, kept, dropped };
     std::vector<State> states(pieces_.size(), State::open);

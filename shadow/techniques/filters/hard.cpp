@@ -5,12 +5,9 @@
 namespace gnomon::shadow {
 
 FilterInfo describe_hard() {
-    return {.name = "hard",
-            .source = "Reeves, Salesin, Cook 1987",
-            .glsl = R"glsl(
+    return {.name = "hard", .source = "Reeves, Salesin, Cook 1987", .glsl = R"glsl(
 float filteredShadow(int first, ShadowPoint point) { return pageCompare(first, point); }
-)glsl",
-            .radiusTexels = 1.0F};
+)glsl"};
 }
 
 }  // namespace gnomon::shadow

@@ -1,5 +1,6 @@
 #include "CasterVolume.h"
 
+#include <gnomon/shadow_fit/Fit.h>
 #include <gnomon/shadow_fit/Outline.h>
 
 #include <algorithm>
@@ -18,16 +19,42 @@ constexpr std::size_t mostLines = 24;  // with the page's sides within BoxTree::
 
 }  // namespace
 
-void SeenInMap::project(const math::dmat4& clipFromWorld, std::span<const dvec3> seenWorld) {
+void SeenInMap::project(const math::dmat4& clipFromWorld, std::span<const dvec3> seenWorld,
+                        const Around& around) {
     points.clear();
     anywhere = false;
-    for (const dvec3& p : seenWorld) {
-        const dvec4 clip = clipFromWorld * dvec4{p, 1.0};
-        if (!(clip.w > 0.0)) {
+    const auto add = [&](const dvec4& clip) {
+        if (!(clip.w > 0.0))
             anywhere = true;
-            return;
+        else
+            points.push_back(dvec3{clip} / clip.w);
+    };
+    if (!(around.reach > 0.0)) {
+        for (const dvec3& p : seenWorld) {
+            add(clipFromWorld * dvec4{p, 1.0});
+            if (anywhere) return;
         }
-        points.push_back(dvec3{clip} / clip.w);
+        return;
+    }
+    // Across the rays, a square around the disk of what is looked up.
+    const math::dmat4 rows = glm::transpose(clipFromWorld);
+    const dvec3 depth{rows[2]};
+    const double steep = glm::length(depth);
+    if (!(steep > 0.0)) {
+        anywhere = true;
+        return;
+    }
+    const auto [u, v] = shadow_fit::perpendicular(depth / steep);
+    const dvec4 alongU = clipFromWorld * dvec4{u, 0.0};
+    const dvec4 alongV = clipFromWorld * dvec4{v, 0.0};
+    for (const dvec3& p : seenWorld) {
+        const double axial =
+            around.source.w == 0.0 ? 1.0 : glm::dot(dvec3{around.source} - p, depth) / steep;
+        const dvec4 at = clipFromWorld * dvec4{p, 1.0};
+        const double reach = around.reach * axial;
+        for (const double x : {-reach, reach})
+            for (const double y : {-reach, reach}) add(at + alongU * x + alongV * y);
+        if (anywhere) return;
     }
 }
 

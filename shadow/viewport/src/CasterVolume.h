@@ -14,7 +14,13 @@ struct SeenInMap {
     /// Some of it is at or behind the light: it may be anywhere.
     bool anywhere = false;
 
-    void project(const math::dmat4& clipFromWorld, std::span<const math::dvec3> seenWorld);
+    /// A light and how far around a place it is looked up: as ShadowState's.
+    struct Around {
+        math::dvec4 source{0.0};
+        double reach = 0.0;
+    };
+    void project(const math::dmat4& clipFromWorld, std::span<const math::dvec3> seenWorld,
+                 const Around& around);
 };
 
 /// What can cast into a page onto what is seen: between the page's sides, around the image of what

@@ -10,6 +10,12 @@ struct ShadowMap {
     vec4 size;           // texels a side x: of the map, y: of a page; z: 1 / (page with its border),
                          // w: 1 / map
     uvec4 pages;         // x: pages a side, y: first entry of the table, z: the layer where x is 1
+    vec4 alongU;         // what a step across the rays does to x, y and w; and so does alongV.
+    vec4 alongV;         // alongU.w: how far lookups go around a place, a share of the map's side
+    vec4 light;          // x: radius of its penumbra, in units of the light's plane, by depth times w;
+                         // y, z: a place's distance along its axis is y + z * depth * w (parallel: 1)
+                         // w: radius of fixed kernels, metres
+    vec4 kernel;         // x: width, texels, y: samples a row; z: reach, in units of its plane
 };
 layout(std140, binding = 4) uniform ShadowMapBlock { ShadowMap shadowMaps[128]; };
 
@@ -42,6 +48,9 @@ struct ShadowPoint {
     vec3 place;
     vec2 slope;
     uint pages;
+    float w;      // of the place on the light's plane
+    float axial;  // distance along the light's axis, metres; 1 where it is parallel
+    vec2 scale;   // texels of its map by those of the light's first
 };
 
 // The plane through two steps on it.
@@ -69,10 +78,16 @@ uint pagesOf(int map) {
 #endif
 }
 
+float axialOf(int first, vec4 place) {
+    return max(shadowMaps[first].light.y + shadowMaps[first].light.z * place.z, 1e-6);
+}
+
 // In a light's first map, from an interpolated shadowPlace(). In uniform control flow.
 ShadowPoint interpolatedPoint(int first, vec4 place) {
     vec3 q = projectedPlace(place);
-    return ShadowPoint(q, slopeOf(dFdx(q), dFdy(q)), pagesOf(first));
+    vec2 slope = slopeOf(dFdx(q), dFdy(q));
+    float axial = axialOf(first, place);
+    return ShadowPoint(q, slope, pagesOf(first), place.w / axial, axial, vec2(1.0));
 }
 
 // In a light's first map, from a surface. @param normal  unit, of the surface's plane
@@ -86,37 +101,67 @@ ShadowPoint foundPoint(int first, vec3 position, vec3 normal) {
     float b = normal.x * normal.y * a;
     vec4 u = m * vec4(1.0 + s * normal.x * normal.x * a, s * b, -s * normal.x, 0.0);
     vec4 v = m * vec4(b, s + normal.y * normal.y * a, -normal.y, 0.0);
-    return ShadowPoint(q, slopeOf(u.xyz - q * u.w, v.xyz - q * v.w), pagesOf(first));
+    float axial = axialOf(first, place);
+    return ShadowPoint(q, slopeOf(u.xyz - q * u.w, v.xyz - q * v.w), pagesOf(first),
+                       place.w / axial, axial, vec2(1.0));
 }
 
-// Comparison at a place in a map, interpolated between the four nearest texels. Lit beyond the map,
-// and where nothing was drawn: there the depth is as far away as can be.
+// The four texels nearest to a place, as gathered, and where between them it is. Nothing, as far away
+// as can be, beyond the map and where no page was drawn.
 //   first  any map of the light: all its maps are of one size
-float pageCompare(int first, ShadowPoint point) {
+vec4 texelsAt(int first, ShadowPoint point, out vec2 share) {
     vec2 corner = floor(point.place.xy - 0.5);
-    vec2 share = point.place.xy - 0.5 - corner;
+    share = point.place.xy - 0.5 - corner;
 #ifdef PAGED_MAPS
     float pageSize = shadowMaps[first].size.y;
     uint side = shadowMaps[first].pages.x;
     uvec2 page = uvec2(clamp(point.place.xy / pageSize, vec2(0.0), vec2(float(side) - 1.0)));
     uint entry = point.pages + page.y * side + page.x;
     uint layer = pageTable[entry >> 2u][entry & 3u];
-    if (layer == pageMissing) return 1.0;
+    if (layer == pageMissing) return vec4(0.0);
     corner -= vec2(page) * pageSize;
 #else
     uint layer = point.pages;
 #endif
     // Between the four: one texel of border, one to their common corner.
-    vec4 casters = textureGather(
-        shadowPages, vec3((corner + 2.0) * shadowMaps[first].size.z, float(layer)));
+    return textureGather(shadowPages,
+                         vec3((corner + 2.0) * shadowMaps[first].size.z, float(layer)));
+}
+
+// Depths of a receiver's plane at the four texels, a little nearer to the light.
+vec4 planeAt(ShadowPoint point, vec2 share) {
     vec2 slope = point.slope;
     float slack = (abs(slope.x) + abs(slope.y)) * slackTexels + slackDepth;
     float here = point.place.z - dot(slope, share) + slack;
-    vec4 plane = vec4(here + slope.y, here + slope.x + slope.y, here + slope.x, here);
+    return vec4(here + slope.y, here + slope.x + slope.y, here + slope.x, here);
+}
+
+// Comparison at a place in a map, interpolated between the four nearest texels.
+float pageCompare(int first, ShadowPoint point) {
+    vec2 share;
+    vec4 casters = texelsAt(first, point, share);
     // A receiver beyond the map is never darker than what was not drawn.
-    vec4 lit = vec4(greaterThanEqual(max(plane, 0.0), casters));
+    vec4 lit = vec4(greaterThanEqual(max(planeAt(point, share), 0.0), casters));
     vec2 row = mix(lit.wx, lit.zy, share.x);
     return mix(row.x, row.y, share.y);
+}
+
+// The point of the receiver's plane that is seen elsewhere. @param by  units of the light's plane
+ShadowPoint movedPoint(int first, ShadowPoint point, vec2 by) {
+    vec3 u = shadowMaps[first].alongU.xyz, v = shadowMaps[first].alongV.xyz;
+    vec3 moved = vec3(point.place.xy * point.w, point.w) +
+                 vec3((u.xy * by.x + v.xy * by.y) * point.scale, u.z * by.x + v.z * by.y);
+    vec2 at = moved.xy / moved.z;
+    point.place = vec3(at, point.place.z + dot(point.slope, at - point.place.xy));
+    point.w = moved.z;
+    return point;
+}
+
+// How many texels a unit of the light's plane is at a place: the longest way.
+float texelsPerUnit(int first, ShadowPoint point) {
+    vec3 u = shadowMaps[first].alongU.xyz, v = shadowMaps[first].alongV.xyz;
+    vec2 a = u.xy * point.scale - point.place.xy * u.z, b = v.xy * point.scale - point.place.xy * v.z;
+    return sqrt(max(dot(a, a), dot(b, b))) / point.w;
 }
 
 float filteredShadow(int first, ShadowPoint point);
@@ -145,10 +190,10 @@ float shadowFactor(int first, ShadowPoint point) {
             vec4 fromFirst = shadowMaps[map].fromFirst;
             vec2 at = point.place.xy * fromFirst.xy + fromFirst.zw;
             vec2 off = abs(at * shadowMaps[map].size.w - 0.5);
-            float inside = 0.5 - max(off.x, off.y);
+            float inside = 0.5 - max(off.x, off.y) - shadowMaps[map].alongU.w;
             if (inside >= 0.0 && k >= next) {
                 here = ShadowPoint(vec3(at, point.place.z), point.slope / fromFirst.xy,
-                                   pagesOf(map));
+                                   pagesOf(map), point.w, point.axial, fromFirst.xy);
                 share = min(inside / (0.5 - blendFrom), 1.0);
                 chosen = k;
             }

@@ -24,6 +24,7 @@ void ShadowMaps::Pool::grow() {
                              static_cast<GLsizei>(layers_));
     texture_ = std::move(larger);
     for (std::uint64_t i = layers; i-- > layers_;) free_.push_back(static_cast<int>(i));
+    if (pyramid_) pyramid_->reserve(layers);
     layers_ = layers;
 }
 

@@ -74,11 +74,44 @@ struct ShadowMaps::MapBlock {
     math::vec4 fromFirst{1e-6F, 1e-6F, -1e6F, -1e6F};
     math::vec4 size{1.0F, 1.0F, 1.0F, 1.0F};
     glm::uvec4 pages{1U, 0U, 0U, 0U};
+    math::vec4 alongU{0.0F};
+    math::vec4 alongV{0.0F};
+    math::vec4 light{0.0F, 1.0F, 0.0F, 0.0F};
+    math::vec4 kernel{0.0F};
     bool perspective() const {
         return mapFromOrigin[0].w != 0.0F || mapFromOrigin[1].w != 0.0F ||
                mapFromOrigin[2].w != 0.0F || mapFromOrigin[3].w != 1.0F;
     }
 };
+
+/// What soft filters must know of a map.
+void ShadowMaps::soften(MapBlock& block, const scene::ShadowState& state,
+                        const math::dmat4& texelsFromWorld) {
+    const math::dmat4 rows = glm::transpose(texelsFromWorld);
+    const double steep = glm::length(math::dvec3{rows[2]});
+    if (!(steep > 0.0)) return;  // no depth, no penumbra
+    const math::dvec3 toward = math::dvec3{rows[2]} / steep;
+    const auto [u, v] = shadow_fit::perpendicular(toward);
+    const auto along = [&](const math::dvec3& axis, double more) {
+        const math::dvec4 moved = texelsFromWorld * math::dvec4{axis, 0.0};
+        return math::vec4{math::dvec4{moved.x, moved.y, moved.w, more}};
+    };
+    const math::dvec4 source = state.source;
+    const bool parallel = source.w == 0.0;
+    // Depth times w is linear in the distance along the rays (parallel light) or in its reciprocal.
+    const double atLight = parallel ? 0.0 : glm::dot(rows[2], source);
+    const double perDepth = parallel ? 1.0 / steep : atLight > 0.0 ? 1.0 / atLight : 0.0;
+    block.light = {static_cast<float>(state.extent * perDepth),
+                   static_cast<float>(parallel ? 1.0 : atLight / steep),
+                   static_cast<float>(parallel ? 0.0 : -1.0 / steep), state.softness};
+    const double share = state.reach *
+                         glm::length(math::dvec2{texelsFromWorld * math::dvec4{u, 0.0}}) /
+                         state.mapSize;
+    block.alongU = along(u, state.clipFromWorld.size() > 1 ? share : 0.0);
+    block.alongV = along(v, 0.0);
+    block.kernel = {static_cast<float>(state.kernelWidth), static_cast<float>(state.kernelSamples),
+                    state.reach, 0.0F};
+}
 
 struct ShadowMaps::Page {
     Pool* pool = nullptr;
@@ -95,11 +128,11 @@ struct ShadowMaps::Frame {
     const View& view;
     CasterSource& casters;
     Pool& pool;
-    float radiusTexels = 1.0F;
     ShadowStatistics& done;
     SeenInMap seen = {};
     math::dmat4 firstFromWorld{1.0};  ///< of the light's first map, to its texels
     bool drawing = false;
+    std::vector<int> drawn = {};  ///< layers
 
     DepthOffset offset() const { return view.offset == nullptr ? DepthOffset{} : *view.offset; }
 };
@@ -125,9 +158,9 @@ ShadowMaps::ShadowMaps(const gl::Api& gl)
 
 ShadowMaps::~ShadowMaps() = default;
 
-ShadowMaps::Pool& ShadowMaps::pool(int pageSize) {
-    auto& slot = pools_[pageSize];
-    if (!slot) slot = std::make_unique<Pool>(gl_, pageSize);
+ShadowMaps::Pool& ShadowMaps::pool(int pageSize, const PyramidInfo* pyramid) {
+    auto& slot = pools_[{pageSize, pyramid}];
+    if (!slot) slot = std::make_unique<Pool>(gl_, pageSize, pyramid);
     return *slot;
 }
 
@@ -145,6 +178,9 @@ void ShadowMaps::dropOld() {
         release(*at->second);
         at = pages_.erase(at);
     }
+    std::erase_if(pools_, [&](const auto& entry) {
+        return entry.second.get() != bound_ && entry.second->unused();
+    });
 }
 
 void ShadowMaps::invalidateAll() {
@@ -165,8 +201,7 @@ void ShadowMaps::invalidate(std::span<const math::Box> moved) {
 void ShadowMaps::drawPage(Page& page, Frame& frame, const math::dmat4& decorate,
                           const math::dmat4& clipFromWorld, const scene::ShadowState& state) {
     const auto sides = math::frustumPlanes(decorate * clipFromWorld);
-    page.volume.enclose(clipFromWorld, std::span{sides}.first(4), frame.seen,
-                        2.0 * (static_cast<double>(frame.radiusTexels) + 1.0) / state.mapSize);
+    page.volume.enclose(clipFromWorld, std::span{sides}.first(4), frame.seen, 4.0 / state.mapSize);
     if (!frame.drawing) {
         gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
         gl_.Viewport(0, 0, frame.pool.side(), frame.pool.side());
@@ -191,6 +226,7 @@ void ShadowMaps::drawPage(Page& page, Frame& frame, const math::dmat4& decorate,
     page.origin = state.origin;
     page.offset = frame.offset();
     page.valid = true;
+    frame.drawn.push_back(page.layer);
     ++frame.done.pagesDrawn;
     frame.done.triangles += drawn.triangles;
     frame.done.texelsDrawn += static_cast<std::uint64_t>(frame.pool.side()) *
@@ -204,7 +240,8 @@ void ShadowMaps::prepareMap(const scene::ShadowState& state, std::uint32_t map, 
     const math::dmat4& clipFromWorld = state.clipFromWorld[map];
     const auto first = static_cast<std::uint32_t>(table_.size());
     table_.resize(table_.size() + static_cast<std::size_t>(side * side), missing);
-    frame.seen.project(clipFromWorld, frame.view.seen);
+    frame.seen.project(clipFromWorld, frame.view.seen,
+                       {.source = state.source, .reach = state.reach});
     const PageRange wanted = seenPages(frame.seen, side, mapSize);
     for (int y = wanted.bottom; y <= wanted.top; ++y) {
         for (int x = wanted.left; x <= wanted.right; ++x) {
@@ -239,13 +276,15 @@ void ShadowMaps::prepareMap(const scene::ShadowState& state, std::uint32_t map, 
     if (map == 0) frame.firstFromWorld = texelsFromWorld;
     // Several maps of a light differ by scale and offset alone; what does not is left to the first.
     const math::dmat4 fromFirst = texelsFromWorld * glm::inverse(frame.firstFromWorld);
-    blocks_.push_back(
-        {.mapFromOrigin = math::mat4{texelsFromWorld * translation(state.origin)},
-         .fromFirst = {static_cast<float>(fromFirst[0][0]), static_cast<float>(fromFirst[1][1]),
-                       static_cast<float>(fromFirst[3][0]), static_cast<float>(fromFirst[3][1])},
-         .size = {static_cast<float>(mapSize), static_cast<float>(pageSize),
-                  1.0F / static_cast<float>(pageSize + 2), 1.0F / static_cast<float>(mapSize)},
-         .pages = {static_cast<std::uint32_t>(side), first, table_[first], 0U}});
+    MapBlock block{
+        .mapFromOrigin = math::mat4{texelsFromWorld * translation(state.origin)},
+        .fromFirst = {static_cast<float>(fromFirst[0][0]), static_cast<float>(fromFirst[1][1]),
+                      static_cast<float>(fromFirst[3][0]), static_cast<float>(fromFirst[3][1])},
+        .size = {static_cast<float>(mapSize), static_cast<float>(pageSize),
+                 1.0F / static_cast<float>(pageSize + 2), 1.0F / static_cast<float>(mapSize)},
+        .pages = {static_cast<std::uint32_t>(side), first, table_[first], 0U}};
+    soften(block, state, texelsFromWorld);
+    blocks_.push_back(block);
 }
 
 ShadowStatistics ShadowMaps::prepare(std::span<const scene::ShadowState* const> states,
@@ -267,22 +306,19 @@ ShadowStatistics ShadowMaps::prepare(std::span<const scene::ShadowState* const> 
         if (blocks_.size() + maps > maxMaps ||
             table_.size() + maps * pages * pages > maxTableEntries)
             continue;
-        Pool& pagePool = pool(pageSize);
+        const FilterInfo* filter = findFilter(state->filter.get());
+        Pool& pagePool = pool(pageSize, filter == nullptr ? nullptr : filter->pyramid);
         if (bound_ != nullptr && bound_ != &pagePool) continue;
         bound_ = &pagePool;
         ranges_[state->light->id] = {.first = static_cast<std::uint32_t>(blocks_.size()),
                                      .count = static_cast<std::uint32_t>(maps)};
-        const FilterInfo* filter = findFilter(state->filter.get());
-        const float radius = filter == nullptr ? 1.0F : filter->radiusTexels;
-        Frame frame{.view = view,
-                    .casters = casters,
-                    .pool = pagePool,
-                    .radiusTexels = radius,
-                    .done = done};
+        Frame frame{.view = view, .casters = casters, .pool = pagePool, .done = done};
         for (std::uint32_t map = 0; map < maps; ++map) prepareMap(*state, map, frame);
         if (frame.drawing) {
             gl_.Disable(GL_DEPTH_CLAMP);
             gl_.Disable(GL_POLYGON_OFFSET_FILL);
+            if (pagePool.hasPyramid())
+                for (const int layer : frame.drawn) pagePool.summarise(layer);
         }
     }
     if (!blocks_.empty())
@@ -321,6 +357,7 @@ ShadowMaps::Arranged ShadowMaps::arrange(std::span<const field::Id> lights) {
     gl_.BindBufferBase(GL_UNIFORM_BUFFER, tableBinding, tableBuffer_.id());
     gl_.BindTextureUnit(pagesUnit, bound_ == nullptr ? 0 : bound_->texture());
     gl_.BindSampler(pagesUnit, sampler_.id());
+    gl_.BindTextureUnit(pyramidUnit, bound_ == nullptr ? 0 : bound_->pyramidTexture());
     const auto some = [&](auto&& is) {
         return std::any_of(arranged_.begin(), arranged_.end(), is);
     };

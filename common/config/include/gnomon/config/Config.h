@@ -58,8 +58,11 @@ struct Shadow {
     std::array<double, 4> color = {0, 0, 0, 1};  ///< sRGB, and how much of it
     std::optional<double> offsetBias = {};       ///< absent: derived from the map
     std::optional<double> offsetFactor = {};     ///< absent: derived from the map
-    double range = 0.3;  ///< share of the view in front of the focus line, trapezoidal maps only
-    int cascades = 4;    ///< of csm
+    double range = 0.3;     ///< share of the view in front of the focus line, trapezoidal maps only
+    int cascades = 4;       ///< of csm
+    double softness = 0.0;  ///< metres; 0: from the light
+    int kernelWidth = 8;    ///< of pcf, texels
+    int kernelSamples = 0;  ///< of pcf, a row; 0: a disk in metres
     bool qualityMode = false;
     DepthRange depthRange = DepthRange::off;  ///< how fits learn how deep the view really is
     Origin origin = {};

@@ -21,6 +21,17 @@ public:
     MultiField<math::dmat4> clipFromWorld;
     /// What the fit group draws relative to, so that a map has the same bits wherever it is drawn.
     Field<math::dvec3> origin;
+    /// Where the light is, homogeneous, world: w 1 at a place, w 0 in a direction (unit).
+    Field<math::dvec4> source;
+    /// What it shines from: tangent of a disk's angular radius where it is in a direction, radius
+    /// in metres where it is at a place.
+    Field<float> extent;
+    Field<float> softness;  ///< radius of fixed kernels, metres
+    /// How far lookups go around a place at the most, in units of the light's plane: metres where
+    /// the light is in a direction, else tangents.
+    Field<float> reach;
+    Field<std::int32_t> kernelWidth{8};  ///< as ShadowViewport's
+    Field<std::int32_t> kernelSamples;
     Field<bool> degenerate;  ///< the fit fell back to a plain one
     static constexpr auto fields() {
         return std::tuple{entry("light", &ShadowState::light),
@@ -30,6 +41,12 @@ public:
                           entry("pageSize", &ShadowState::pageSize),
                           entry("clipFromWorld", &ShadowState::clipFromWorld),
                           entry("origin", &ShadowState::origin),
+                          entry("source", &ShadowState::source),
+                          entry("extent", &ShadowState::extent),
+                          entry("softness", &ShadowState::softness),
+                          entry("reach", &ShadowState::reach),
+                          entry("kernelWidth", &ShadowState::kernelWidth),
+                          entry("kernelSamples", &ShadowState::kernelSamples),
                           entry("degenerate", &ShadowState::degenerate)};
     }
 };

@@ -101,7 +101,13 @@ public:
     Field<math::vec4> shadowColor{math::vec4{0.0F, 0.0F, 0.0F, 1.0F}};  ///< rgb, a = darkness
     Field<float> range{0.3F};         ///< focus region, 0 < range < 0.8
     Field<std::int32_t> cascades{4};  ///< of csm, 2 to 8
-    Field<bool> qualityMode;          ///< better for more time: exact depth, larger penumbrae
+    /// Radius of the kernel that pcf, vsm and evsm blur with, metres. 0: see
+    /// shadow_fit::softnessOf().
+    Field<float> softness;
+    Field<std::int32_t> kernelWidth{8};  ///< of pcf with kernelSamples, texels
+    /// pcf: samples a row of a square kernel in texels, as the thesis'. 0: a disk in metres.
+    Field<std::int32_t> kernelSamples;
+    Field<bool> qualityMode;  ///< better for more time: exact depth, larger penumbrae
     Field<DepthUse> depthRange;
     Field<float> offBias{4.0F};  ///< with overrideBias: constant offset, units of depth resolution
     Field<float> offFactor{10.0F};       ///< with overrideBias: factor of the slope
@@ -116,6 +122,8 @@ public:
             std::tuple{entry("shadowOn", &V::shadowOn), entry("technique", &V::technique),
                        entry("mapSize", &V::mapSize), entry("shadowColor", &V::shadowColor),
                        entry("range", &V::range), entry("cascades", &V::cascades),
+                       entry("softness", &V::softness), entry("kernelWidth", &V::kernelWidth),
+                       entry("kernelSamples", &V::kernelSamples),
                        entry("qualityMode", &V::qualityMode), entry("depthRange", &V::depthRange),
                        entry("offBias", &V::offBias), entry("offFactor", &V::offFactor),
                        entry("overrideBias", &V::overrideBias), entry("lightNodes", &V::lightNodes),

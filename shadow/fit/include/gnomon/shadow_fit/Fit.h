@@ -55,6 +55,8 @@ struct FitInput {
     math::Box scene = {};  ///< bounds of all casters and receivers
     int mapSize = 512;  ///< texels a side; of fits with several maps, as many in all as one of it
     FitSettings settings = {};
+    /// How far lookups go around a place, in units of the light's plane: maps hold that much more.
+    double reach = 0.0;
 };
 
 /// One map's light camera.

@@ -39,10 +39,12 @@ public:
     /// Takes flat pieces off the outline, as the light sees it, that nothing stands over: they are
     /// lit, with or without a map, and a map that need not hold them has finer texels elsewhere.
     /// Pieces that are partly so are cut.
-    void dropUnshadowed(const LightShape& light, const math::BoxTree& casters);
+    /// @param reach  of lookups, in units of the light's plane: what is as near to a ray counts
+    void dropUnshadowed(const LightShape& light, const math::BoxTree& casters, double reach = 0.0);
 
     /// False where nothing can shadow any of it: no map is needed.
-    bool mayBeShadowed(const LightShape& light, const math::BoxTree& casters) const;
+    bool mayBeShadowed(const LightShape& light, const math::BoxTree& casters,
+                       double reach = 0.0) const;
 
     bool empty() const noexcept { return points_.empty(); }
     /// Corners of all pieces, world space.

@@ -5,16 +5,25 @@
 
 namespace gnomon::shadow {
 
-/// A way to look maps up: GLSL, and what it needs around each page.
+/// What is made of each page after it was drawn: cells of texels, coarser from level to level.
+struct PyramidInfo {
+    int channels = 4;       ///< 2 or 4 floats a cell
+    int texelsPerCell = 4;  ///< a side, of the first level; a cell of the next has twice as many
+    /// Defines `vec4 firstLevel(ivec2 cell)` from the page: texel (x, y) of `source`, layer
+    /// `layer`, has its middle at (x + 1.5, y + 1.5) * `texel`. And `vec4 nextLevel(ivec2 cell)` of
+    /// `level`, from the cells (2 x, 2 y) and their neighbours, level 0 of `source`.
+    std::string_view glsl = {};
+};
+
+/// A way to look maps up: GLSL, and what it needs of each page.
 struct FilterInfo {
     std::string_view name = {};    ///< the word in configs and on the command line
     std::string_view source = {};  ///< authors, title, year
-    /// Defines `float filteredShadow(int first, ShadowPoint point)`: 1 lit, 0 shadowed. The point's
-    /// place is in texels of the map, its slope in depth a texel. May call `float pageCompare(int
-    /// first, ShadowPoint point)`, the comparison interpolated between the four nearest texels.
+    /// Defines `float filteredShadow(int first, ShadowPoint point)`: 1 lit, 0 shadowed. May call
+    /// what lookupGlsl() has. Lookups stay within the light's reach of the point.
     std::string_view glsl = {};
-    /// Reach of the filter around the looked-up point, texels, each way: what must be drawn.
-    float radiusTexels = 1.0F;
+    std::string_view shared = {};          ///< GLSL that stands before it: softGlsl()
+    const PyramidInfo* pyramid = nullptr;  ///< what it reads of pages besides their depths
 };
 
 /// Every filter built in, sorted by name.
@@ -25,6 +34,10 @@ const FilterInfo* findFilter(std::string_view name) noexcept;
 /// GLSL of the maps' uniform block, for vertex and fragment shaders. Binding points are those of
 /// ShadowMaps. Lights' maps stand one after the other, MAPS_PER_LIGHT of each.
 std::string_view mapsGlsl() noexcept;
+/// Bounds of the depths of each cell, above and below a plane: what softGlsl() reads.
+const PyramidInfo& depthBounds() noexcept;
+/// GLSL of filters that compare many texels, to stand after lookupGlsl(). Needs depthBounds().
+std::string_view softGlsl() noexcept;
 /// GLSL that declares pages and `shadowFactor()`, to stand after mapsGlsl() and before the
 /// filter's.
 std::string_view lookupGlsl() noexcept;

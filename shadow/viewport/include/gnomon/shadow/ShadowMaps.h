@@ -3,11 +3,13 @@
 #include <gnomon/gl/Handle.h>
 #include <gnomon/math/View.h>
 #include <gnomon/scene/ShadowState.h>
+#include <gnomon/shadow/Filter.h>
 
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace gnomon::shadow {
@@ -59,7 +61,8 @@ public:
     static constexpr int maxTableEntries = 4096;
     static constexpr GLuint mapsBinding = 4;  ///< uniform buffers
     static constexpr GLuint tableBinding = 5;
-    static constexpr GLuint pagesUnit = 8;  ///< texture unit
+    static constexpr GLuint pagesUnit = 8;  ///< texture units
+    static constexpr GLuint pyramidUnit = 9;
 
     explicit ShadowMaps(const gl::Api& gl);
     ~ShadowMaps();
@@ -104,15 +107,18 @@ private:
     struct MapBlock;
     struct Frame;  // what prepare() works with
 
+    static void soften(MapBlock& block, const scene::ShadowState& state,
+                       const math::dmat4& texelsFromWorld);
+
     void prepareMap(const scene::ShadowState& state, std::uint32_t map, Frame& frame);
     void drawPage(Page& page, Frame& frame, const math::dmat4& decorate,
                   const math::dmat4& clipFromWorld, const scene::ShadowState& state);
     void release(Page& page) noexcept;
     void dropOld();
-    Pool& pool(int pageSize);
+    Pool& pool(int pageSize, const PyramidInfo* pyramid);
 
     const gl::Api& gl_;
-    std::map<int, std::unique_ptr<Pool>> pools_;
+    std::map<std::pair<int, const PyramidInfo*>, std::unique_ptr<Pool>> pools_;
     std::map<PageKey, std::unique_ptr<Page>> pages_;
     struct Range {
         std::uint32_t first = 0, count = 0;

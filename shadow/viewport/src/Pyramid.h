@@ -1,0 +1,42 @@
+#pragma once
+
+#include <gnomon/gl/Handle.h>
+#include <gnomon/shadow/Filter.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace gnomon::shadow {
+
+/// Summaries of the pages of a pool, coarser from level to level: for filters that need more of a
+/// map than its texels. Made once after a page was drawn.
+class Pyramid {
+public:
+    Pyramid(const gl::Api& gl, const PyramidInfo& info, int pageSize);
+
+    GLuint texture() const noexcept { return texture_.id(); }
+    std::uint64_t bytes() const noexcept;
+    /// Room for so many layers, more than there are.
+    void reserve(std::uint64_t layers);
+    /// Makes a layer from the same one of the pages. Leaves its own framebuffer, viewport and
+    /// program bound, and the depth test off.
+    /// @param pages  depth texture, a texel of border around each page
+    void make(GLuint pages, int layer);
+
+private:
+    gl::Program build(std::string_view label, std::string_view body) const;
+
+    const gl::Api& gl_;
+    const PyramidInfo& info_;
+    int pageSize_;  ///< texels
+    int side_;      ///< cells, of the first level: a power of two
+    int levels_;
+    std::uint64_t layers_ = 0;
+    gl::Texture texture_;
+    std::vector<gl::Framebuffer> framebuffers_;  ///< by level
+    gl::Program first_;
+    gl::Program next_;
+    gl::VertexArray empty_;
+};
+
+}  // namespace gnomon::shadow
