@@ -31,22 +31,27 @@ float filteredShadow(int first, ShadowPoint point) {
         reach = enough;
     }
     if (reach * texels < 0.5) return pageCompare(first, point);
-    float sum = 0.0, count = 0.0, looked = 0.0;
+    // As many samples to each octave of distance: what is near a place on its way to the light is near
+    // it in the map. Each stands for the share of the light that what it finds there hides.
+    float sum = 0.0, count = 0.0;
+    float texel = 1.0 / texels;
+    float step_ = exp2(-log2(max(2.0 * reach * texels, 2.0)) / float(searches));
+    float away = reach * sqrt(step_);
     vec2 turn = vec2(1.0, 0.0);
-    float share = inversesqrt(float(searches));
     for (int i = 0; i < searches; ++i) {
-        vec2 by = turn * (sqrt(float(i) + 0.5) * share * reach);
-        turn = goldenTurn * turn;
-        ShadowPoint at = movedPoint(first, point, by);
+        ShadowPoint at = movedPoint(first, point, turn * away);
         vec2 between;
         vec4 casters = texelsAt(first, at, between);
         vec4 depths = casters * at.w;
-        // Of the cone around the light, where the tap is; a texel more, for its size.
-        float cone = max(length(by) - 1.0 / texels, 0.0);
+        vec4 cone = spread * (depths - here);
         vec4 blocks = vec4(greaterThan(casters, planeAt(at, between))) *
-                      vec4(greaterThanEqual(spread * (depths - here), vec4(cone)));
-        sum += dot(blocks, depths);
-        count += dot(blocks, vec4(1.0));
+                      vec4(greaterThan(cone, vec4(away - texel)));
+        vec4 hidden = away / max(cone, away);
+        hidden *= hidden * blocks;
+        sum += dot(hidden, depths);
+        count += dot(hidden, vec4(1.0));
+        turn = goldenTurn * turn;
+        away *= step_;
     }
     if (count == 0.0) return 1.0;
     float radius = min(spread * max(sum / count - here, 0.0), reach);

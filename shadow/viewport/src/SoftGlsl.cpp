@@ -96,7 +96,7 @@ Around around(int first, ShadowPoint point, float radius) {
     int pageSide = int(shadowMaps[first].size.y);
     if ((4 << level) > pageSide) return Around(false, false, 1.0);
     float cellSide = float(4 << level);
-    ivec2 last = ivec2(shadowMaps[first].size.x / cellSide);
+    ivec2 last = ivec2(ceil(shadowMaps[first].size.x / cellSide)) - 1;
     ivec2 low = clamp(ivec2(floor((point.place.xy - radius) / cellSide)), ivec2(0), last);
     ivec2 high = clamp(ivec2(floor((point.place.xy + radius) / cellSide)), ivec2(0), last);
     float above = -1e30, below = 1e30, nearest = 0.0;
@@ -112,7 +112,10 @@ Around around(int first, ShadowPoint point, float radius) {
         nearest = max(nearest, bounds.w + at + own.x + own.y);
     }
     float slack = (abs(point.slope.x) + abs(point.slope.y)) * slackTexels + slackDepth;
-    return Around(above <= slack, below > slack, min(nearest, 1.0));
+    // Beyond the map it is lit.
+    vec2 off = abs(point.place.xy - 0.5 * shadowMaps[first].size.x) + radius;
+    bool within = max(off.x, off.y) <= 0.5 * shadowMaps[first].size.x;
+    return Around(above <= slack, within && below > slack, min(nearest, 1.0));
 }
 
 // Points of a disk, evenly: the next one is turned by the golden angle. Always the same ones: a
