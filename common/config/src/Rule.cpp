@@ -17,8 +17,10 @@ constexpr std::array<std::string_view, 7> alone = {"none", "volume",   "planar",
                                                    "ray",  "lightmap", "auto"};
 constexpr std::array<std::string_view, 8> fits = {"std", "trapez", "psm",        "lispsm",
                                                   "csm", "cube",   "paraboloid", "sparse"};
-constexpr std::array<std::string_view, 5> filters = {"hard", "pcf", "ppcf", "vsm", "evsm"};
-constexpr std::array<std::string_view, 3> filtersAlone = {"pcf", "ppcf", "vsm"};  // mean std+...
+constexpr std::array<std::string_view, 6> filters = {"hard",   "pcf", "ppcf",
+                                                     "square", "vsm", "evsm"};
+constexpr std::array<std::string_view, 5> filtersAlone = {"pcf", "ppcf", "square", "vsm",
+                                                          "evsm"};  // mean std+...
 
 template <std::size_t n>
 bool has(const std::array<std::string_view, n>& words, std::string_view word) {

@@ -229,7 +229,7 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group,
         viewport.mapSize > 0 ? viewport.mapSize.get() : scene::mapSizeFor(group.pixels);
     const int mapSize = std::clamp(asked, 16, 16384);
     // Whole pages: a map that is not a multiple is raised to one.
-    plan.pageSize = std::min(pageTexels, mapSize);
+    plan.pageSize = std::min(plan.filter.pageTexels, mapSize);
     plan.mapSize = (mapSize + plan.pageSize - 1) / plan.pageSize * plan.pageSize;
 
     const auto& wanted = viewport.lightNodes;
@@ -270,8 +270,9 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group,
     }
     const double softness =
         plan.viewport.softness > 0.0F ? plan.viewport.softness.get() : softnessOf(light);
-    const double reach = lookupReach(plan.filter.spread, light, softness, receivers_.points(),
-                                     plan.seen.flat.bounds());
+    const double reach = lookupReach(plan.filter.spread, light, softness,
+                                     0.5 * plan.viewport.kernelWidth / plan.mapSize,
+                                     receivers_.points(), plan.seen.flat.bounds());
     if (plan.info.shadowedOnly)
         receivers_.dropUnshadowed(light, boxes.tree, reach);
     else if (!receivers_.mayBeShadowed(light, boxes.tree, reach))

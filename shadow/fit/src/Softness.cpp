@@ -9,11 +9,14 @@
 namespace gnomon::shadow_fit {
 namespace {
 
-constexpr std::array<FilterUse, 5> uses{{{"hard", Spread::none},
+/// What blurs whole maps knows nothing beyond a page.
+constexpr int largePage = 4096;
+constexpr std::array<FilterUse, 6> uses{{{"hard", Spread::none},
                                          {"pcf", Spread::fixed},
                                          {"ppcf", Spread::penumbra},
-                                         {"vsm", Spread::fixed},
-                                         {"evsm", Spread::fixed}}};
+                                         {"square", Spread::texels},
+                                         {"vsm", Spread::fixed, largePage},
+                                         {"evsm", Spread::fixed, largePage}}};
 
 /// A lookup that goes further than this many tangents around would see half the world.
 constexpr double mostTangents = 2.0;
@@ -40,25 +43,38 @@ double softnessOf(const LightShape& light) noexcept {
                     light.kind == LightKind::directional ? extent * metresAway : extent * 0.5);
 }
 
-double lookupReach(Spread spread, const LightShape& light, double softness,
+double lookupReach(Spread spread, const LightShape& light, double softness, double share,
                    std::span<const math::dvec3> receivers, const math::Box& casters) {
     if (spread == Spread::none || receivers.empty()) return 0.0;
     const LightPlane plane{light};
-    const auto depth = plane.depthOf(receivers, casters);
-    if (plane.parallel())
-        return spread == Spread::fixed ? softness
-                                       : extentOf(light) * (depth.farthest - depth.nearest);
-    if (spread == Spread::fixed) {
-        double nearest = depth.farthest;
-        for (const math::dvec3& p : receivers) nearest = std::min(nearest, plane.at(p).z);
-        return std::min(softness / std::max(nearest, depth.nearest), mostTangents);
+    if (spread == Spread::texels) {
+        const auto hull = outlineOf(plane, light, receivers, 0.0).hull;
+        math::Box seen;
+        for (const math::dvec2& p : hull) seen.add(math::dvec3{p, 0.0});
+        return hull.empty() ? 0.0 : 1.5 * share * glm::length(seen.size());
     }
-    // What is nearer than the map's near side is drawn there.
+    const auto depth = plane.depthOf(receivers, casters);
+    if (plane.parallel()) {
+        if (spread == Spread::fixed) return softness;
+        // Nothing casts from farther away than a ray is in the bounds.
+        double away = depth.farthest - depth.nearest;
+        const math::dvec3 size = casters.empty() ? math::dvec3{0.0} : casters.size();
+        for (int i = 0; i < 3; ++i) {
+            const double slope = std::abs(light.direction[i]);
+            if (slope * away > size[i]) away = size[i] / slope;
+        }
+        return extentOf(light) * away;
+    }
     double nearest = depth.farthest;
-    if (!casters.empty())
-        for (int i = 0; i < 8; ++i) nearest = std::min(nearest, plane.at(casters.corner(i)).z);
+    for (const math::dvec3& p : receivers) nearest = std::min(nearest, plane.at(p).z);
     nearest = std::max(nearest, depth.nearest);
-    return std::min(extentOf(light) * (1.0 / nearest - 1.0 / depth.farthest), mostTangents);
+    if (spread == Spread::fixed) return std::min(softness / nearest, mostTangents);
+    // What is nearer than the map's near side is drawn there.
+    double caster = depth.farthest;
+    if (!casters.empty())
+        for (int i = 0; i < 8; ++i) caster = std::min(caster, plane.at(casters.corner(i)).z);
+    caster = std::clamp(caster, depth.nearest, depth.farthest);
+    return std::min(extentOf(light) * (1.0 / caster - 1.0 / depth.farthest), mostTangents);
 }
 
 }  // namespace gnomon::shadow_fit

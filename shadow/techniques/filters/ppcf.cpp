@@ -13,49 +13,44 @@ FilterInfo describe_ppcf() {
     return {.name = "ppcf",
             .source = "Fernando 2005",
             .glsl = R"glsl(
-const int searches = 16;
+const float searches = 8.0;
 
 float filteredShadow(int first, ShadowPoint point) {
     float spread = shadowMaps[first].light.x;
-    float most = length(vec2(shadowMaps[first].alongU.z, shadowMaps[first].alongV.z));
     float here = point.place.z * point.w;
     float reach = min(spread * (1.0 - here), shadowMaps[first].kernel.z);
     float texels = texelsPerUnit(first, point);
+    float most = length(vec2(shadowMaps[first].alongU.z, shadowMaps[first].alongV.z));
+    Around all = around(first, point, reach * texels);
+    float known = all.lit ? 1.0 : all.shadowed ? 0.0 : -1.0;
     // What may block is nearer in a smaller neighbourhood, and then matters in a smaller one.
-    for (int i = 0; i < 4; ++i) {
-        Around all = around(first, point, reach * texels);
-        if (all.lit || all.shadowed) return all.lit ? 1.0 : 0.0;
-        float w = point.w + reach * most;
-        float enough = max(spread * (all.nearest * w - here), 0.0);
-        if (enough > reach * 0.8) break;
-        reach = enough;
-    }
-    if (reach * texels < 0.5) return pageCompare(first, point);
+    reach = clamp(spread * (all.nearest * (point.w + reach * most) - here), 0.0, reach);
     // As many samples to each octave of distance: what is near a place on its way to the light is near
     // it in the map. Each stands for the share of the light that what it finds there hides.
-    float sum = 0.0, count = 0.0;
+    bool searching = known < 0.0 && reach * texels >= 0.5;
     float texel = 1.0 / texels;
-    float step_ = exp2(-log2(max(2.0 * reach * texels, 2.0)) / float(searches));
+    float step_ = exp2(-log2(max(2.0 * reach * texels, 2.0)) / searches);
     float away = reach * sqrt(step_);
+    float sum = 0.0, hides = 0.0;
     vec2 turn = vec2(1.0, 0.0);
-    for (int i = 0; i < searches; ++i) {
+    float count = searching ? searches : 0.0;
+    for (float i = 0.0; i < count; i += 1.0) {
         ShadowPoint at = movedPoint(first, point, turn * away);
         vec2 between;
         vec4 casters = texelsAt(first, at, between);
         vec4 depths = casters * at.w;
         vec4 cone = spread * (depths - here);
-        vec4 blocks = vec4(greaterThan(casters, planeAt(at, between))) *
-                      vec4(greaterThan(cone, vec4(away - texel)));
         vec4 hidden = away / max(cone, away);
-        hidden *= hidden * blocks;
+        hidden *= hidden * vec4(greaterThan(casters, max(planeAt(at, between), 0.0))) * vec4(greaterThan(cone, vec4(away - texel)));
         sum += dot(hidden, depths);
-        count += dot(hidden, vec4(1.0));
+        hides += dot(hidden, vec4(1.0));
         turn = goldenTurn * turn;
         away *= step_;
     }
-    if (count == 0.0) return 1.0;
-    float radius = min(spread * max(sum / count - here, 0.0), reach);
-    return diskShadow(first, point, radius);
+    known = searching && hides == 0.0 ? 1.0 : known;
+    float radius = hides > 0.0 ? min(spread * max(sum / hides - here, 0.0), reach) : 0.0;
+    count = known >= 0.0 ? 0.0 : samplesOf(2.0 * radius * texels);
+    return known >= 0.0 ? known : diskShadow(first, point, radius, count);
 }
 )glsl",
             .shared = softGlsl(),

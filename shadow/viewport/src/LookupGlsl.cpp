@@ -149,11 +149,13 @@ float pageCompare(int first, ShadowPoint point) {
 // The point of the receiver's plane that is seen elsewhere. @param by  units of the light's plane
 ShadowPoint movedPoint(int first, ShadowPoint point, vec2 by) {
     vec3 u = shadowMaps[first].alongU.xyz, v = shadowMaps[first].alongV.xyz;
-    vec3 moved = vec3(point.place.xy * point.w, point.w) +
-                 vec3((u.xy * by.x + v.xy * by.y) * point.scale, u.z * by.x + v.z * by.y);
-    vec2 at = moved.xy / moved.z;
-    point.place = vec3(at, point.place.z + dot(point.slope, at - point.place.xy));
-    point.w = moved.z;
+    vec2 step_ = (u.xy * by.x + v.xy * by.y) * point.scale;
+#ifdef PERSPECTIVE_MAPS
+    float w = point.w + u.z * by.x + v.z * by.y;
+    step_ = (point.place.xy * point.w + step_) / w - point.place.xy;
+    point.w = w;
+#endif
+    point.place += vec3(step_, dot(point.slope, step_));
     return point;
 }
 

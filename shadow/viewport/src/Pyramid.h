@@ -18,13 +18,14 @@ public:
     std::uint64_t bytes() const noexcept;
     /// Room for so many layers, more than there are.
     void reserve(std::uint64_t layers);
-    /// Makes a layer from the same one of the pages. Leaves its own framebuffer, viewport and
-    /// program bound, and the depth test off.
+    /// Makes a layer from the same one of the pages. Leaves its own framebuffer, viewport, program
+    /// and textures bound, and the depth test off.
     /// @param pages  depth texture, a texel of border around each page
     void make(GLuint pages, int layer);
 
 private:
-    gl::Program build(std::string_view label, std::string_view body) const;
+    GLenum format() const noexcept { return info_.channels == 4 ? GL_RGBA32F : GL_RG32F; }
+    gl::Program build(std::string_view label, std::string_view function) const;
 
     const gl::Api& gl_;
     const PyramidInfo& info_;
@@ -33,9 +34,13 @@ private:
     int levels_;
     std::uint64_t layers_ = 0;
     gl::Texture texture_;
-    std::vector<gl::Framebuffer> framebuffers_;  ///< by level
-    gl::Program first_;
-    gl::Program next_;
+    gl::Texture cells_;                  ///< all levels of the page that is made
+    std::vector<gl::Framebuffer> cell_;  ///< by level
+    gl::Sampler sampler_;
+    gl::Framebuffer kept_;
+    gl::Program firstLevel_;
+    gl::Program nextLevel_;
+    gl::Program keep_;
     gl::VertexArray empty_;
 };
 

@@ -109,7 +109,8 @@ void ShadowMaps::soften(MapBlock& block, const scene::ShadowState& state,
                          state.mapSize;
     block.alongU = along(u, state.clipFromWorld.size() > 1 ? share : 0.0);
     block.alongV = along(v, 0.0);
-    block.kernel = {static_cast<float>(state.kernelWidth), static_cast<float>(state.kernelSamples),
+    const int row = state.kernelSamples > 0 ? state.kernelSamples : state.kernelWidth;
+    block.kernel = {static_cast<float>(state.kernelWidth), static_cast<float>(std::max(row, 1)),
                     state.reach, 0.0F};
 }
 

@@ -9,10 +9,10 @@ const PyramidInfo& depthBounds() noexcept {
     static constexpr PyramidInfo info{.channels = 4, .texelsPerCell = 4, .glsl = R"glsl(
 vec4 firstLevel(ivec2 cell) {
     vec2 corner = vec2(cell * 4) + 2.0;
-    vec4 a = textureGather(source, vec3(corner * texel, layer));
-    vec4 b = textureGather(source, vec3((corner + vec2(2.0, 0.0)) * texel, layer));
-    vec4 c = textureGather(source, vec3((corner + vec2(0.0, 2.0)) * texel, layer));
-    vec4 d = textureGather(source, vec3((corner + vec2(2.0, 2.0)) * texel, layer));
+    vec4 a = textureGather(page, vec3(corner * texel, layer));
+    vec4 b = textureGather(page, vec3((corner + vec2(2.0, 0.0)) * texel, layer));
+    vec4 c = textureGather(page, vec3((corner + vec2(0.0, 2.0)) * texel, layer));
+    vec4 d = textureGather(page, vec3((corner + vec2(2.0, 2.0)) * texel, layer));
     // Gathered: x (0, 1), y (1, 1), z (1, 0), w (0, 0).
     vec4 low = min(min(a, b), min(c, d)), high = max(max(a, b), max(c, d));
     vec2 flat_ = vec2(min(min(low.x, low.y), min(low.z, low.w)),
@@ -39,7 +39,7 @@ vec4 nextLevel(ivec2 cell) {
     vec2 flat_ = vec2(1e30, -1e30);
     for (int i = 0; i < 4; ++i) {
         vec2 side = vec2(i & 1, i >> 1) * 2.0 - 1.0;
-        vec4 part = texelFetch(source, ivec3(cell * 2 + ivec2(i & 1, i >> 1), layer), 0);
+        vec4 part = texelFetch(cells, cell * 2 + ivec2(i & 1, i >> 1), 0);
         float around = (abs(part.x) + abs(part.y)) * half_;
         flat_ = vec2(min(flat_.x, part.z - around), max(flat_.y, part.w + around));
         rise += side * (part.z + part.w);
@@ -57,6 +57,23 @@ vec4 nextLevel(ivec2 cell) {
     if (steep.y - steep.x > 0.5 * (flat_.y - flat_.x)) return vec4(0.0, 0.0, flat_);
     return vec4(slope, steep);
 }
+
+// Of the cell and all its neighbours.
+vec4 kept(ivec2 cell) {
+    float cellSide = 4.0 * exp2(float(level));
+    vec4 own = texelFetch(cells, cell, 0);
+    ivec2 low = max(cell - 1, ivec2(0)), high = min(cell + 1, ivec2(side - 1));
+    vec2 range = own.zw;
+    for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x) {
+            vec4 part = texelFetch(cells, ivec2(x, y), 0);
+            vec2 off = abs(part.xy - own.xy) * 0.5 * cellSide;
+            float at = dot(own.xy, vec2(x - cell.x, y - cell.y)) * cellSide;
+            range = vec2(min(range.x, part.z - at - off.x - off.y),
+                         max(range.y, part.w - at + off.x + off.y));
+        }
+    return vec4(own.xy, range);
+}
 )glsl"};
     return info;
 }
@@ -64,22 +81,6 @@ vec4 nextLevel(ivec2 cell) {
 std::string_view softGlsl() noexcept {
     return R"glsl(
 layout(binding = 9) uniform sampler2DArray shadowBounds;
-
-// A cell of the bounds, by its place among those of the whole map.
-vec4 boundsOf(int first, ShadowPoint point, ivec2 cell, int level) {
-#ifdef PAGED_MAPS
-    int inPage = int(shadowMaps[first].size.y) >> (level + 2);
-    int side = int(shadowMaps[first].pages.x);
-    ivec2 page = clamp(cell / inPage, ivec2(0), ivec2(side - 1));
-    uint entry = point.pages + uint(page.y * side + page.x);
-    uint layer = pageTable[entry >> 2u][entry & 3u];
-    if (layer == pageMissing) return vec4(0.0);
-    cell = clamp(cell - page * inPage, ivec2(0), ivec2(inPage - 1));
-#else
-    uint layer = point.pages;
-#endif
-    return texelFetch(shadowBounds, ivec3(cell, int(layer)), level);
-}
 
 // What the texels within a square around a place may be. Everything is as far as float can tell: a
 // lookup that it spares would have had the same answer.
@@ -92,30 +93,36 @@ struct Around {
 //   radius  texels
 Around around(int first, ShadowPoint point, float radius) {
     radius += 1.0;  // what is interpolated
-    int level = int(ceil(log2(max(radius * 0.5, 1.0))));
-    int pageSide = int(shadowMaps[first].size.y);
-    if ((4 << level) > pageSide) return Around(false, false, 1.0);
+    // Cells as large as that: their neighbours are in what is known of them.
+    int level = max(int(ceil(log2(radius * 0.25))), 0);
     float cellSide = float(4 << level);
-    ivec2 last = ivec2(ceil(shadowMaps[first].size.x / cellSide)) - 1;
-    ivec2 low = clamp(ivec2(floor((point.place.xy - radius) / cellSide)), ivec2(0), last);
-    ivec2 high = clamp(ivec2(floor((point.place.xy + radius) / cellSide)), ivec2(0), last);
-    float above = -1e30, below = 1e30, nearest = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        ivec2 cell = ivec2((i & 1) == 0 ? low.x : high.x, (i >> 1) == 0 ? low.y : high.y);
-        vec4 bounds = boundsOf(first, point, cell, level);
-        // Depths count from the middle of texel (0, 0) of the cell; a place from its corner.
-        float at = dot(bounds.xy, point.place.xy - (vec2(cell) + 0.5) * cellSide);
-        vec2 off = abs(bounds.xy - point.slope) * radius;
-        above = max(above, bounds.w + at - point.place.z + off.x + off.y);
-        below = min(below, bounds.z + at - point.place.z - off.x - off.y);
-        vec2 own = abs(bounds.xy) * radius;
-        nearest = max(nearest, bounds.w + at + own.x + own.y);
-    }
+    float pageSize = shadowMaps[first].size.y;
+    if (cellSide > pageSize) return Around(false, false, 1.0);
+    vec2 at = point.place.xy;
+#ifdef PAGED_MAPS
+    uint pages = shadowMaps[first].pages.x;
+    uvec2 page = uvec2(clamp(at / pageSize, vec2(0.0), vec2(float(pages) - 1.0)));
+    uint entry = point.pages + page.y * pages + page.x;
+    uint layer = pageTable[entry >> 2u][entry & 3u];
+    at -= vec2(page) * pageSize;
+    vec2 over = abs(at - 0.5 * pageSize) + radius;
+    if (layer == pageMissing || max(over.x, over.y) > 0.5 * pageSize)
+        return Around(false, false, 1.0);
+#else
+    uint layer = point.pages;
+#endif
+    ivec2 cell = ivec2(clamp(at / cellSide, vec2(0.0), vec2(ceil(pageSize / cellSide) - 1.0)));
+    vec4 bounds = texelFetch(shadowBounds, ivec3(cell, int(layer)), level);
+    float here = dot(bounds.xy, at - (vec2(cell) + 0.5) * cellSide);
+    vec2 off = abs(bounds.xy - point.slope) * radius;
+    vec2 own = abs(bounds.xy) * radius;
     float slack = (abs(point.slope.x) + abs(point.slope.y)) * slackTexels + slackDepth;
     // Beyond the map it is lit.
-    vec2 off = abs(point.place.xy - 0.5 * shadowMaps[first].size.x) + radius;
-    bool within = max(off.x, off.y) <= 0.5 * shadowMaps[first].size.x;
-    return Around(above <= slack, within && below > slack, min(nearest, 1.0));
+    vec2 out_ = abs(point.place.xy - 0.5 * shadowMaps[first].size.x) + radius;
+    bool within = max(out_.x, out_.y) <= 0.5 * shadowMaps[first].size.x;
+    return Around(bounds.w + here - point.place.z + off.x + off.y <= slack,
+                  within && bounds.z + here - point.place.z - off.x - off.y > slack,
+                  min(bounds.w + here + own.x + own.y, 1.0));
 }
 
 // Points of a disk, evenly: the next one is turned by the golden angle. Always the same ones: a
@@ -123,21 +130,27 @@ Around around(int first, ShadowPoint point, float radius) {
 // Construct the Sunflower Head. 1979.
 const mat2 goldenTurn = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
 
-// The share of a disk that is lit. A sample is interpolated over a texel; there are as many as texels
-// across the disk, so that their steps follow each other without a gap.
+// How many samples of a disk: one a texel across it, so that their steps, each interpolated over a
+// texel, follow each other without a gap. One where there is no disk.
+float samplesOf(float texelsAcross) {
+    return texelsAcross < 1.0 ? 1.0 : floor(clamp(texelsAcross + 4.0, 5.0, 64.0));
+}
+
+// The share of a disk that is lit. Without samples as with one: software GL executes what is written
+// for all pixels, whatever they branch to, so that each lookup is written once and skipped by its
+// loop's end alone.
 //   radius  in units of the light's plane
-float diskShadow(int first, ShadowPoint point, float radius) {
-    float across = 2.0 * radius * texelsPerUnit(first, point);
-    if (across < 1.0) return pageCompare(first, point);
-    int count = int(clamp(across + 8.0, 8.0, 64.0));
-    float share = radius * inversesqrt(float(count));
+float diskShadow(int first, ShadowPoint point, float radius, float count) {
+    float share = count > 1.0 ? radius * inversesqrt(count) : 0.0;
     float lit = 0.0;
     vec2 turn = vec2(1.0, 0.0);
-    for (int i = 0; i < count; ++i) {
-        lit += pageCompare(first, movedPoint(first, point, turn * (sqrt(float(i) + 0.5) * share)));
+    float i = 0.5;
+    do {
+        lit += pageCompare(first, movedPoint(first, point, turn * (sqrt(i) * share)));
         turn = goldenTurn * turn;
-    }
-    return lit / float(count);
+        i += 1.0;
+    } while (i < count);
+    return lit / (i - 0.5);
 }
 )glsl";
 }

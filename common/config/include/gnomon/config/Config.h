@@ -61,8 +61,8 @@ struct Shadow {
     double range = 0.3;     ///< share of the view in front of the focus line, trapezoidal maps only
     int cascades = 4;       ///< of csm
     double softness = 0.0;  ///< metres; 0: from the light
-    int kernelWidth = 8;    ///< of pcf, texels
-    int kernelSamples = 0;  ///< of pcf, a row; 0: a disk in metres
+    int kernelWidth = 8;    ///< of square, texels
+    int kernelSamples = 0;  ///< of square, a row; 0: all
     bool qualityMode = false;
     DepthRange depthRange = DepthRange::off;  ///< how fits learn how deep the view really is
     Origin origin = {};

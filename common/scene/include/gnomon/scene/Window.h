@@ -104,8 +104,8 @@ public:
     /// Radius of the kernel that pcf, vsm and evsm blur with, metres. 0: see
     /// shadow_fit::softnessOf().
     Field<float> softness;
-    Field<std::int32_t> kernelWidth{8};  ///< of pcf with kernelSamples, texels
-    /// pcf: samples a row of a square kernel in texels, as the thesis'. 0: a disk in metres.
+    Field<std::int32_t> kernelWidth{8};  ///< of square, texels
+    /// Of square, a row; 0: all of its texels.
     Field<std::int32_t> kernelSamples;
     Field<bool> qualityMode;  ///< better for more time: exact depth, larger penumbrae
     Field<DepthUse> depthRange;

@@ -11,11 +11,13 @@ namespace gnomon::shadow_fit {
 enum class Spread {
     none,      ///< at the place
     fixed,     ///< softnessOf() around it
+    texels,    ///< half a kernel's width around it
     penumbra,  ///< as far as the light's extent and what casts give
 };
 struct FilterUse {
     std::string_view name = {};
     Spread spread = Spread::none;
+    int pageTexels = shadow_fit::pageTexels;  ///< a side, at the most
 };
 /// Every filter a technique can name. Their lookups are shadow's business.
 std::span<const FilterUse> filterUses() noexcept;
@@ -32,9 +34,10 @@ double extentOf(const LightShape& light) noexcept;
 /// How far around a place lookups go at the most, in units of the light's plane; 0 for
 /// Spread::none.
 /// @param softness   metres
+/// @param share      half a kernel's width, a share of the map's side
 /// @param receivers  of which some must be in front of the light
 /// @param casters    bounds of what casts
-double lookupReach(Spread spread, const LightShape& light, double softness,
+double lookupReach(Spread spread, const LightShape& light, double softness, double share,
                    std::span<const math::dvec3> receivers, const math::Box& casters);
 
 }  // namespace gnomon::shadow_fit

@@ -9,10 +9,13 @@ namespace gnomon::shadow {
 struct PyramidInfo {
     int channels = 4;       ///< 2 or 4 floats a cell
     int texelsPerCell = 4;  ///< a side, of the first level; a cell of the next has twice as many
-    /// Defines `vec4 firstLevel(ivec2 cell)` from the page: texel (x, y) of `source`, layer
-    /// `layer`, has its middle at (x + 1.5, y + 1.5) * `texel`. And `vec4 nextLevel(ivec2 cell)` of
-    /// `level`, from the cells (2 x, 2 y) and their neighbours, level 0 of `source`.
+    /// Together they define three functions. `vec4 firstLevel(ivec2 cell)`, from the page: texel
+    /// (x, y) of `page`, layer `layer`, has its middle at (x + 1.5, y + 1.5) * `texel`. `vec4
+    /// nextLevel(ivec2 cell)` of `level`, from level 0 of `cells`, four cells of the level before
+    /// each. `vec4 kept(ivec2 cell)`, what lookups see of it, from the cells around it in level 0
+    /// of `cells`, `side` each way.
     std::string_view glsl = {};
+    std::string_view levels = {};
 };
 
 /// A way to look maps up: GLSL, and what it needs of each page.
@@ -38,6 +41,10 @@ std::string_view mapsGlsl() noexcept;
 const PyramidInfo& depthBounds() noexcept;
 /// GLSL of filters that compare many texels, to stand after lookupGlsl(). Needs depthBounds().
 std::string_view softGlsl() noexcept;
+/// GLSL of filters that read moments of the depths, to stand after lookupGlsl(), and the
+/// nextLevel() and kept() of their pyramid.
+std::string_view momentsGlsl() noexcept;
+std::string_view momentLevelsGlsl() noexcept;
 /// GLSL that declares pages and `shadowFactor()`, to stand after mapsGlsl() and before the
 /// filter's.
 std::string_view lookupGlsl() noexcept;

@@ -1,0 +1,42 @@
+// Variance shadow maps of depths that an exponential warps, one way and the other: light bleeds
+// less, since the warped distance of casters to each other is small beside that to what they
+// shadow. Andrew Lauritzen, Michael McCool. Layered Variance Shadow Maps. 2008. The exponent is as
+// large as squares of the warped depth fit into a float.
+#include <gnomon/shadow/Filter.h>
+
+namespace gnomon::shadow {
+namespace {
+
+const PyramidInfo moments{.channels = 4,
+                          .texelsPerCell = 2,
+                          .glsl = R"glsl(
+vec4 firstLevel(ivec2 cell) {
+    vec4 depths = textureGather(page, vec3((vec2(cell * 2) + 2.0) * texel, layer)) - 0.5;
+    vec4 up = exp(80.0 * depths), down = -exp(-80.0 * depths);
+    return 0.25 * vec4(dot(up, vec4(1.0)), dot(up, up), dot(down, vec4(1.0)), dot(down, down));
+}
+)glsl",
+                          .levels = momentLevelsGlsl()};
+
+}  // namespace
+
+FilterInfo describe_evsm() {
+    return {.name = "evsm",
+            .source = "Lauritzen, McCool 2008",
+            .glsl = R"glsl(
+float filteredShadow(int first, ShadowPoint point) {
+    float slope = abs(point.slope.x) + abs(point.slope.y);
+    float here = max(point.place.z, 0.0) - 0.5 + slope * slackTexels;
+    vec4 moments = momentsAround(first, point);
+    float up = exp(80.0 * here), down = -exp(-80.0 * here);
+    // What a texel's slope and rounding make of the warped depths.
+    vec2 least = 80.0 * (0.5 * slope + 2e-5) * vec2(up, down);
+    least *= least;
+    return min(litAtMost(moments.xy, up, least.x), litAtMost(moments.zw, down, least.y));
+}
+)glsl",
+            .shared = momentsGlsl(),
+            .pyramid = &moments};
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,65 @@
+#include <gnomon/shadow/Filter.h>
+
+namespace gnomon::shadow {
+
+std::string_view momentLevelsGlsl() noexcept {
+    return R"glsl(
+vec4 nextLevel(ivec2 cell) {
+    ivec2 at = cell * 2;
+    return 0.25 * (texelFetch(cells, at, 0) + texelFetch(cells, at + ivec2(1, 0), 0) +
+                   texelFetch(cells, at + ivec2(0, 1), 0) + texelFetch(cells, at + ivec2(1, 1), 0));
+}
+
+// Of a cell and its neighbours: binomial, so that what is interpolated has no corners.
+vec4 kept(ivec2 cell) {
+    vec4 sum = vec4(0.0);
+    for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x)
+            sum += texelFetch(cells, clamp(cell + ivec2(x, y), ivec2(0), ivec2(side - 1)), 0) *
+                   float((2 - abs(x)) * (2 - abs(y)));
+    return sum / 16.0;
+}
+)glsl";
+}
+
+std::string_view momentsGlsl() noexcept {
+    return R"glsl(
+layout(binding = 9) uniform sampler2DArray shadowMoments;
+
+// Moments over the kernel: the level whose cells, with what is blurred and interpolated of them, are
+// as wide.
+vec4 momentsAround(int first, ShadowPoint point) {
+    float radius = min(shadowMaps[first].light.w / point.axial, shadowMaps[first].kernel.z) *
+                   texelsPerUnit(first, point);
+    vec2 at = point.place.xy;
+#ifdef PAGED_MAPS
+    float pageSize = shadowMaps[first].size.y;
+    uint pages = shadowMaps[first].pages.x;
+    uvec2 page = uvec2(clamp(at / pageSize, vec2(0.0), vec2(float(pages) - 1.0)));
+    uint entry = point.pages + page.y * pages + page.x;
+    uint layer = pageTable[entry >> 2u][entry & 3u];
+    at -= vec2(page) * pageSize;
+    if (layer == pageMissing) return vec4(-1e30, 1e30, -1e30, 1e30);
+#else
+    uint layer = point.pages;
+#endif
+    vec2 off = abs(point.place.xy - 0.5 * shadowMaps[first].size.x);
+    if (max(off.x, off.y) > 0.5 * shadowMaps[first].size.x) return vec4(-1e30, 1e30, -1e30, 1e30);
+    float cells = float(textureSize(shadowMoments, 0).x);
+    return textureLod(shadowMoments, vec3(at / (2.0 * cells), float(layer)),
+                      max(log2(radius * 0.3), 0.0));
+}
+
+// What may be lit at the most. Source: Pafnuty Chebyshev, one-sided. A part of it is taken away,
+// where light bleeds through casters at two distances. Source: Andrew Lauritzen. Summed-Area Variance
+// Shadow Maps. GPU Gems 3, 2007.
+float litAtMost(vec2 moments, float here, float leastVariance) {
+    float behind = moments.x - here;
+    float variance = max(moments.y - moments.x * moments.x, leastVariance);
+    float most = variance / (variance + behind * behind);
+    return behind <= 0.0 ? 1.0 : clamp((most - 0.2) / 0.8, 0.0, 1.0);
+}
+)glsl";
+}
+
+}  // namespace gnomon::shadow
