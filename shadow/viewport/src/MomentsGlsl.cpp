@@ -10,8 +10,10 @@ vec4 nextLevel(ivec2 cell) {
                    texelFetch(cells, at + ivec2(0, 1), 0) + texelFetch(cells, at + ivec2(1, 1), 0));
 }
 
-// Of a cell and its neighbours: binomial, so that what is interpolated has no corners.
+// Of a cell and its neighbours: binomial, so that what is interpolated has no corners. The finest
+// stays as it is, for kernels that are hardly wider than a texel.
 vec4 kept(ivec2 cell) {
+    if (level == 0) return texelFetch(cells, cell, 0);
     vec4 sum = vec4(0.0);
     for (int y = -1; y <= 1; ++y)
         for (int x = -1; x <= 1; ++x)
@@ -46,8 +48,10 @@ vec4 momentsAround(int first, ShadowPoint point) {
     vec2 off = abs(point.place.xy - 0.5 * shadowMaps[first].size.x);
     if (max(off.x, off.y) > 0.5 * shadowMaps[first].size.x) return vec4(-1e30, 1e30, -1e30, 1e30);
     float cells = float(textureSize(shadowMoments, 0).x);
+    // Radii, in texels: 2 of the finest, then 8 and doubling.
+    float octaves = log2(max(radius, 2.0) * 0.5);
     return textureLod(shadowMoments, vec3(at / (2.0 * cells), float(layer)),
-                      max(log2(radius * 0.3), 0.0));
+                      octaves < 2.0 ? octaves * 0.5 : octaves - 1.0);
 }
 
 // What may be lit at the most. Source: Pafnuty Chebyshev, one-sided. A part of it is taken away,
