@@ -134,6 +134,27 @@ TEST_F(BenchProgram, MakesATableForEachViewSizeAndMotion) {
     EXPECT_TRUE(fs::exists(folder_ / "report" / "index.html"));
 }
 
+TEST_F(BenchProgram, ViewsOfSeveralScenesGoToTheirOwn) {
+    fs::copy_file(path("scene.obj"), path("other.obj"));
+    const auto views =
+        write("two.jsonl", "{\"name\": \"both\"}\n{\"name\": \"one\", \"scene\": \"other\"}\n");
+    const auto walk = write("walk.jsonl",
+                            "{\"time\": 0, \"eye\": [0, 6, 6], \"center\": [0, 0, 0]}\n"
+                            "{\"time\": 1, \"eye\": [3, 6, 6], \"center\": [0, 0, 0]}\n");
+    const auto ended =
+        run({path("scene.obj"), path("other.obj"), "--views", views, "--size", "64x48",
+             "--technique", "std", "--map-size", "64", "--frames", "2", "--flicker", "4", "--path",
+             walk, "--no-peer", "--json", path("t.json")});
+    ASSERT_EQ(ended.status, 0) << ended.err << ended.out;
+    std::vector<std::string> found;
+    for (const auto& table : tables())
+        found.push_back(table["scene"].get<std::string>() + " " + table["view"].get<std::string>());
+    EXPECT_EQ(found,
+              (std::vector<std::string>{"scene.obj both", "other.obj both", "other.obj one"}));
+    EXPECT_GT(tables()[0]["runs"][0]["flicker_camera"]["share"], 0.0)
+        << "64 texels on 8 m, and strides of a metre";
+}
+
 TEST_F(BenchProgram, APeerTakesTurnsWithUs) {
     const auto ended = run({path("scene.obj"), "--views", path("views.jsonl"), "--size", "64x48",
                             "--technique", "std", "--map-size", "64", "--frames", "4", "--peer",

@@ -7,6 +7,7 @@ namespace {
 
 constexpr int stillSamples = 64;
 constexpr int pathSamples = 16;
+constexpr int settlingFrames = 2;
 
 /// Wrong shares of each band, counted as truth::compareFactors() counts.
 std::array<double, 3> wrongIn(const image::Image& bands, const image::Image& truth,
@@ -77,6 +78,8 @@ FlickerError Judge::flicker(Contender& contender, const std::vector<Moment>& mom
 }
 
 void Judge::judge(Contender& contender, BenchRow& row, const std::filesystem::path& picture) const {
+    // What fits learn from earlier frames, they have learnt.
+    for (int i = 0; i < settlingFrames; ++i) contender.frame(Motion::moving);
     const image::Image factor = contender.factor();
     row.error = orThrow(truth::compareFactors(truth_, factor));
     row.bands = wrongIn(bands_, truth_, factor);

@@ -64,6 +64,7 @@ private:
     Console& console_;
     Judge judge_;
     std::optional<Entry> first_ = {};
+    std::size_t judged_ = 0;
     std::vector<std::vector<BenchRow>> rows_ =
         std::vector<std::vector<BenchRow>>(setup_.chapter.motions.size());
 };
@@ -96,7 +97,10 @@ std::optional<Entry> Trial::entered(std::unique_ptr<Contender> contender) {
         if (!lost(entry, failure)) throw;
         return {};
     }
-    console_.progress("judging", 0.5, entry.row.technique);
+    console_.progress("judging",
+                      std::min(1.0, static_cast<double>(++judged_) /
+                                        static_cast<double>(setup_.chapter.variants.size())),
+                      entry.row.technique);
     return entry;
 }
 
