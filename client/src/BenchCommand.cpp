@@ -89,13 +89,16 @@ void addWhatIsCompared(CLI::App& command, BenchArguments& arguments) {
             },
             "pixels of the windows")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->type_name("WxH,...");
     addLightOptions(command, arguments.lights);
     command.add_option("--views", arguments.views, "named views, JSON lines: docs/measure.md");
     command.add_option("--technique", plan.techniques, "techniques; the first is compared with")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     command.add_option("--map-size", plan.mapSizes, "texels a side of the maps")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->check(CLI::Range(16, 16384));
     command
         .add_option_function<Texts>(
@@ -104,7 +107,8 @@ void addWhatIsCompared(CLI::App& command, BenchArguments& arguments) {
                 for (const auto& text : texts) plan.motions.push_back(parseMotion(text));
             },
             "static, dynamic or both: whether what was drawn before can serve again")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     command.add_flag("--dynamic", arguments.dynamic, "the same as --motion dynamic");
     command.add_option("--sweep", plan.sweep, "gates or thesis: comparisons that are built in");
     command
@@ -119,7 +123,8 @@ void addPeers(CLI::App& command, PeerOptions& peers) {
     command.add_option("--peer", peers.program,
                        "another renderer to take turns with (gnomon-osg-peer beside this program)");
     command.add_option("--peer-technique", peers.techniques, "which of its techniques")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     command.add_flag("--no-peer", peers.off, "without");
 }
 
