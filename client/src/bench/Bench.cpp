@@ -38,7 +38,7 @@ private:
 /// The project's own scene, made anew. @throws Failure
 std::filesystem::path madePlaza(const std::filesystem::path& folder) {
     const auto program = programFolder() / "gnomon-demo-scene";
-    const auto file = folder / "plaza.glb";
+    auto file = folder / "plaza.glb";
     auto child = orThrow(
         Child::start({.arguments = {program.string(), "--scene", "plaza", "--out", file.string()},
                       .keepStderr = true}));

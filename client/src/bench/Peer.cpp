@@ -80,6 +80,8 @@ public:
         : setup_{setup}, talk_{std::move(talk)}, factorFile_{setup.triangles} {
         factorFile_ += fmt::format(".{}-{}.pgm", setup.technique, setup.mapSize);
     }
+    PeerContender(const PeerContender&) = delete;
+    PeerContender& operator=(const PeerContender&) = delete;
     ~PeerContender() override {
         std::error_code ignored;
         std::filesystem::remove(factorFile_, ignored);

@@ -19,6 +19,7 @@ class Reference {
 public:
     /// @throws Failure
     Reference(const std::filesystem::path& file, Console& console);
+    ~Reference() = default;
     Reference(const Reference&) = delete;
     Reference& operator=(const Reference&) = delete;
 

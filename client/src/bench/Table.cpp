@@ -23,6 +23,7 @@ Interval medianOf(std::vector<double> values) {
 
 std::vector<bool> paretoFront(const std::vector<BenchRow>& rows) {
     std::vector<bool> front;
+    front.reserve(rows.size());
     for (const BenchRow& row : rows) {
         front.push_back(std::none_of(rows.begin(), rows.end(), [&](const BenchRow& other) {
             const double ms = other.frameMs.median - row.frameMs.median;
