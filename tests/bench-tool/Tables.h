@@ -8,7 +8,7 @@ inline BenchRow row(const std::string& technique, int mapSize, double ms, std::u
     return {.technique = technique,
             .mapSize = mapSize,
             .frameMs = {.median = ms, .low = ms * 0.9, .high = ms * 1.1},
-            .ratio = {.median = 1.0, .low = 0.9, .high = 1.1},
+            .ratio = {.median = ms / 10.0, .low = ms * 0.09, .high = ms * 0.11},
             .error = {.counted = 1000, .wrong = wrong}};
 }
 

@@ -75,8 +75,8 @@ Scale timeScale(const std::vector<BenchRow>& rows) {
     double least = 1e9;
     double most = 0.0;
     for (const BenchRow& row : rows) {
-        if (row.frameMs.median > 0.0) least = std::min(least, row.frameMs.low);
-        most = std::max(most, row.frameMs.high);
+        if (row.ratio.median > 0.0) least = std::min(least, row.ratio.low);
+        most = std::max(most, row.ratio.high);
     }
     if (!(most > 0.0)) return {0.0, 1.0, left, right, false};
     // A peer may be twenty times slower; what lies close together must still be told apart.
@@ -98,7 +98,14 @@ Scale errorScale(const std::vector<BenchRow>& rows) {
     return {least * 0.7, most * 1.4, bottom, top, true};
 }
 
-void drawAxes(Plot& plot, const Scale& time, const Scale& error) {
+/// What the time is a multiple of.
+std::string timeLabel(const std::vector<BenchRow>& rows) {
+    if (rows.empty()) return "frame time";
+    return fmt::format("frame time, in pairs: 1 is {} {}, {:.1f} ms", rows.front().technique,
+                       rows.front().mapSize, rows.front().frameMs.median);
+}
+
+void drawAxes(Plot& plot, const Scale& time, const Scale& error, const std::string& first) {
     using Align = Plot::Text::Align;
     for (const double ms : time.ticks()) {
         const double x = time.at(ms);
@@ -114,10 +121,8 @@ void drawAxes(Plot& plot, const Scale& time, const Scale& error) {
                               .text = fmt::format("{:g}", percent),
                               .align = Align::right});
     }
-    plot.texts.push_back({.x = (left + right) / 2.0,
-                          .y = bottom + 42.0,
-                          .text = "median frame, ms",
-                          .align = Align::centre});
+    plot.texts.push_back(
+        {.x = (left + right) / 2.0, .y = bottom + 42.0, .text = first, .align = Align::centre});
     plot.texts.push_back({.x = 20.0,
                           .y = (top + bottom) / 2.0,
                           .text = "wrong pixels, %",
@@ -148,10 +153,10 @@ Plot plotOf(const BenchTable& table) {
     Plot plot{.width = width, .height = height};
     const Scale time = timeScale(table.rows);
     const Scale error = errorScale(table.rows);
-    drawAxes(plot, time, error);
+    drawAxes(plot, time, error, timeLabel(table.rows));
     plot.texts.push_back({.x = left, .y = 24.0, .text = table.title(), .size = 14.0});
     const auto place = [&](const BenchRow& row) {
-        return std::array{time.at(row.frameMs.median), error.at(row.wrongPercent())};
+        return std::array{time.at(row.ratio.median), error.at(row.wrongPercent())};
     };
     const auto front = paretoFront(table.rows);
     std::vector<std::array<double, 2>> dashes;
@@ -166,7 +171,7 @@ Plot plotOf(const BenchTable& table) {
         joined[name].color = color;
         joined[name].points.push_back(at);
         plot.lines.push_back(
-            {.points = {{time.at(row.frameMs.low), at[1]}, {time.at(row.frameMs.high), at[1]}},
+            {.points = {{time.at(row.ratio.low), at[1]}, {time.at(row.ratio.high), at[1]}},
              .color = color,
              .width = 1.2});
         auto mark = markOf(row, front[i], color);

@@ -43,8 +43,9 @@ struct Plot {
     std::vector<Text> texts = {};
 };
 
-/// Run time to the right, wrong pixels upward (logarithmic). A technique's map sizes are joined;
-/// filled and larger is the Pareto front, joined by dashes; hollow diamonds are peers.
+/// Run time to the right, as a multiple of the first row's, wrong pixels upward (logarithmic). A
+/// technique's map sizes are joined; filled and larger is the Pareto front, joined by dashes;
+/// hollow diamonds are peers.
 Plot plotOf(const BenchTable& table);
 
 /// The same drawing both ways. @throws Failure Errc::file

@@ -26,9 +26,9 @@ std::vector<bool> paretoFront(const std::vector<BenchRow>& rows) {
     front.reserve(rows.size());
     for (const BenchRow& row : rows) {
         front.push_back(std::none_of(rows.begin(), rows.end(), [&](const BenchRow& other) {
-            const double ms = other.frameMs.median - row.frameMs.median;
+            const double time = other.ratio.median - row.ratio.median;
             const double wrong = other.wrongPercent() - row.wrongPercent();
-            return ms <= 0.0 && wrong <= 0.0 && (ms < 0.0 || wrong < 0.0);
+            return time <= 0.0 && wrong <= 0.0 && (time < 0.0 || wrong < 0.0);
         }));
     }
     return front;

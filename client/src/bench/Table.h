@@ -57,6 +57,7 @@ struct BenchTable {
 };
 
 /// Rows that no other row beats: none is both as fast and as right, and better in one of the two.
+/// As fast by the ratio: it is of pairs, and so the machine's mood is not in it.
 /// Rows without shadows take part as what they are: fast, and wrong.
 std::vector<bool> paretoFront(const std::vector<BenchRow>& rows);
 

@@ -29,14 +29,14 @@ public:
     std::vector<BenchTable> run() {
         const auto& variants = setup_.chapter.variants;
         first_ = entered(ours(variants.front()));
+        std::vector<Entry> batch = peers();
         std::size_t next = 1;
         do {
-            std::vector<Entry> batch;
-            for (; next < variants.size() && batch.size() + 1 < together; ++next)
+            for (std::size_t held = 1; next < variants.size() && held < together; ++next, ++held)
                 batch.push_back(*entered(ours(variants[next])));
             measure(batch);
+            batch.clear();
         } while (next < variants.size());
-        runPeers();
         return tables();
     }
 
@@ -45,12 +45,13 @@ private:
         return makeContender(context_, reference_, setup_.view, variant,
                              [this](const std::string& t) { console_.log(LogLevel::warning, t); });
     }
-    void runPeers() {
-        if (!setup_.peers) return;
-        std::vector<Entry> batch;
+    /// They take turns with the first batch.
+    std::vector<Entry> peers() {
+        std::vector<Entry> all;
+        if (!setup_.peers) return all;
         for (auto& peer : setup_.peers(judge_, setup_.view))
-            if (auto made = entered(std::move(peer))) batch.push_back(*std::move(made));
-        if (!batch.empty()) measure(batch);
+            if (auto made = entered(std::move(peer))) all.push_back(*std::move(made));
+        return all;
     }
     std::optional<Entry> entered(std::unique_ptr<Contender> contender);
     void measure(std::vector<Entry>& batch);
@@ -157,7 +158,7 @@ void Trial::measure(std::vector<Entry>& batch) {
 std::vector<BenchTable> Trial::tables() const {
     std::vector<BenchTable> all;
     const auto& size = *setup_.view.view.size;
-    for (std::size_t motion = 0; motion < rows_.size(); ++motion)
+    for (std::size_t motion = 0; motion < rows_.size(); ++motion) {
         all.push_back({.chapter = setup_.chapter.name,
                        .scene = reference_.file().filename().string(),
                        .view = setup_.view.name,
@@ -167,6 +168,9 @@ std::vector<BenchTable> Trial::tables() const {
                        .dynamic = setup_.chapter.motions[motion] == Motion::moving,
                        .frames = setup_.frames,
                        .rows = rows_[motion]});
+        auto& rows = all.back().rows;
+        std::stable_partition(rows.begin(), rows.end(), [](const auto& row) { return !row.peer; });
+    }
     return all;
 }
 
