@@ -67,6 +67,14 @@ TEST(Plot, FillsTheFrontAndDrawsPeersAsHollowDiamonds) {
     EXPECT_EQ(named, 1);
 }
 
+TEST(Plot, NamesMapSizesWhereThereAreMaps) {
+    BenchTable kept{.rows = {row("none", 512, 1.0, 9), row("std", 512, 2.0, 5)}};
+    kept.rows[1].mapBytes = 1 << 20;  // and no texel drawn in the last frame
+    int sizes = 0;
+    for (const auto& text : plotOf(kept).texts) sizes += text.text == "512" ? 1 : 0;
+    EXPECT_EQ(sizes, 1);
+}
+
 TEST(Plot, TimesThatAreFarApartGoByTheirLogarithm) {
     BenchTable wide{.rows = {row("a", 1, 1.0, 1), row("b", 1, 10.0, 1), row("c", 1, 100.0, 1)}};
     const Plot plot = plotOf(wide);

@@ -178,7 +178,7 @@ Plot plotOf(const BenchTable& table) {
         mark.x = at[0];
         mark.y = at[1];
         plot.marks.push_back(mark);
-        if (row.mapTexels > 0 || row.peer)
+        if (row.mapBytes > 0 || row.peer)  // texels are drawn only where none were kept
             plot.texts.push_back({.x = at[0] + 8.0,
                                   .y = at[1] - 6.0,
                                   .text = std::to_string(row.mapSize),
