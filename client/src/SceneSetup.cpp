@@ -58,7 +58,9 @@ Result<PreparedScene> prepareScene(field::Aspect& aspect, const SceneTree& tree,
     prepared.tree = tree;
     bool lit = false;
     if (!options.file.empty()) {
-        auto model = loadModel(aspect, prepared.tree, options.file, options.progress);
+        auto model = options.imported != nullptr
+                         ? adoptModel(aspect, prepared.tree, *options.imported)
+                         : loadModel(aspect, prepared.tree, options.file, options.progress);
         if (!model) return tl::unexpected{model.error()};
         prepared.bounds = model->bounds;
         if (!options.lights.empty()) switchOffLights(aspect, *model);

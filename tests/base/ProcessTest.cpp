@@ -1,6 +1,7 @@
 #include <gnomon/base/Process.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -40,6 +41,17 @@ TEST(Process, ItsOutputAndExitCodeCanBeRead) {
     EXPECT_EQ(WEXITSTATUS(status), 3);
     EXPECT_EQ(describeStatus(status), "exit code 3");
     EXPECT_EQ(child->ended(), status);
+}
+
+TEST(Process, ReadsWhatWeWriteToIt) {
+    auto child = shell("read line; echo \"got $line\"; cat > /dev/null", {.takesInput = true});
+    ASSERT_TRUE(child.has_value()) << child.error().text();
+    ASSERT_GE(child->input(), 0);
+    ASSERT_EQ(::send(child->input(), "this\n", 5, MSG_NOSIGNAL), 5);
+    std::array<char, 16> buffer{};
+    ASSERT_EQ(::read(child->output(), buffer.data(), buffer.size()), 9);
+    EXPECT_STREQ(buffer.data(), "got this\n");
+    EXPECT_EQ(shell("true")->input(), -1);
 }
 
 TEST(Process, TheEnvironmentIsAddedToOurs) {

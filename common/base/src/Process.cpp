@@ -3,6 +3,7 @@
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -24,14 +25,14 @@ std::error_code lastError() { return {errno, std::generic_category()}; }
 
 /// What runs in the child between fork and exec: async-signal-safe calls only.
 [[noreturn]] void becomeProgram(const ChildOptions& options, char* const* arguments,
-                                char* const* environment, int out, int err, int report,
+                                char* const* environment, int in, int out, int err, int report,
                                 pid_t parent) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(127);  // the parent died before prctl took hold
     ::dup2(out, STDOUT_FILENO);
     if (err >= 0) ::dup2(err, STDERR_FILENO);
-    const int devNull = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
-    if (devNull >= 0) ::dup2(devNull, STDIN_FILENO);
+    if (in < 0) in = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+    if (in >= 0) ::dup2(in, STDIN_FILENO);
     if (options.memoryLimit) {
         const rlimit limit{*options.memoryLimit, *options.memoryLimit};
         ::setrlimit(RLIMIT_AS, &limit);
@@ -60,12 +61,15 @@ Result<Child> Child::start(const ChildOptions& options) {
     std::array<int, 2> out{-1, -1};
     std::array<int, 2> err{-1, -1};
     std::array<int, 2> report{-1, -1};
+    std::array<int, 2> in{-1, -1};  // ours, the child's
     const auto closeAll = [&] {
-        for (auto* pipe : {&out, &err, &report})
+        for (auto* pipe : {&out, &err, &report, &in})
             for (int& fd : *pipe) closeFd(fd);
     };
     if (::pipe2(out.data(), O_CLOEXEC) != 0 || ::pipe2(report.data(), O_CLOEXEC) != 0 ||
-        (!options.keepStderr && ::pipe2(err.data(), O_CLOEXEC) != 0)) {
+        (!options.keepStderr && ::pipe2(err.data(), O_CLOEXEC) != 0) ||
+        (options.takesInput &&
+         ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, in.data()) != 0)) {
         const auto cause = lastError();
         closeAll();
         return fail(Errc::process, "cannot make a pipe for " + options.arguments[0], cause);
@@ -92,11 +96,12 @@ Result<Child> Child::start(const ChildOptions& options) {
     const pid_t parent = ::getpid();
     const pid_t pid = ::fork();
     if (pid == 0)
-        becomeProgram(options, arguments.data(), environment.data(), out[1], err[1], report[1],
-                      parent);
+        becomeProgram(options, arguments.data(), environment.data(), in[1], out[1], err[1],
+                      report[1], parent);
     const auto forkError = lastError();
     closeFd(out[1]);
     closeFd(err[1]);
+    closeFd(in[1]);
     closeFd(report[1]);
     if (pid < 0) {
         closeAll();
@@ -109,6 +114,7 @@ Result<Child> Child::start(const ChildOptions& options) {
     child.pid_ = pid;
     child.out_ = out[0];
     child.err_ = err[0];
+    child.in_ = in[0];
     if (got == sizeof code)
         return fail(Errc::process, "cannot start " + options.arguments[0],
                     {code, std::generic_category()});
@@ -119,6 +125,7 @@ Child::Child(Child&& other) noexcept
     : pid_{std::exchange(other.pid_, -1)},
       out_{std::exchange(other.out_, -1)},
       err_{std::exchange(other.err_, -1)},
+      in_{std::exchange(other.in_, -1)},
       status_{other.status_} {}
 
 Child& Child::operator=(Child&& other) noexcept {
@@ -127,6 +134,7 @@ Child& Child::operator=(Child&& other) noexcept {
         pid_ = std::exchange(other.pid_, -1);
         out_ = std::exchange(other.out_, -1);
         err_ = std::exchange(other.err_, -1);
+        in_ = std::exchange(other.in_, -1);
         status_ = other.status_;
     }
     return *this;
@@ -144,6 +152,7 @@ void Child::end() noexcept {
     pid_ = -1;
     closeFd(out_);
     closeFd(err_);
+    closeFd(in_);
 }
 
 void Child::signal(int number) const noexcept {

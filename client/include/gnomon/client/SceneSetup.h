@@ -3,6 +3,7 @@
 #include <gnomon/client/Lights.h>
 #include <gnomon/client/Look.h>
 #include <gnomon/client/Model.h>
+#include <gnomon/field/ChangeList.h>
 
 #include <optional>
 
@@ -14,6 +15,9 @@ struct SceneOptions {
     /// Replace the file's own lights; empty: the file's own, else the default sun.
     std::vector<LightOption> lights = {};
     ProgressCallback progress = {};
+    /// What importer::importScene() read of the file, to put one file into several aspects;
+    /// nullptr: it is read.
+    const field::ChangeList* imported = nullptr;
 };
 
 struct PreparedScene {

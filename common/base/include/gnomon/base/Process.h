@@ -20,7 +20,8 @@ struct ChildOptions {
     std::vector<std::string> environment = {};      ///< `NAME=value`, added to ours
     std::optional<std::uint64_t> memoryLimit = {};  ///< address space, bytes
     std::optional<std::chrono::seconds> cpuLimit = {};
-    bool keepStderr = false;  ///< true: stderr is ours; false: it is read by takeStderr()
+    bool keepStderr = false;  ///< true: stderr is ours; false: it is read from errors()
+    bool takesInput = false;  ///< true: what is written to input() is its stdin; false: it has none
 };
 
 /// A started program whose standard output we read. Killed, and waited for, when destroyed.
@@ -36,6 +37,9 @@ public:
     pid_t pid() const noexcept { return pid_; }
     int output() const noexcept { return out_; }  ///< reads its standard output
     int errors() const noexcept { return err_; }  ///< reads its standard error; -1 if kept
+    /// Writes its standard input; -1 without takesInput. A child that does not read raises EPIPE,
+    /// not SIGPIPE: it is a socket, so use send() with MSG_NOSIGNAL.
+    int input() const noexcept { return in_; }
     void signal(int number) const noexcept;
     /// The raw wait status once it ended; nothing while it runs.
     std::optional<int> ended() noexcept;
@@ -49,6 +53,7 @@ private:
     pid_t pid_ = -1;
     int out_ = -1;
     int err_ = -1;
+    int in_ = -1;
     std::optional<int> status_ = {};
 };
 
