@@ -196,6 +196,17 @@ bool shinesAt(int i, vec3 position) {
 )glsl";
 }
 
+std::string_view tracedLookup() noexcept {
+    return R"glsl(
+layout(binding = 8) uniform sampler2DArray tracedFactors;
+#define ShadowPoint int
+int foundPoint(int light, vec3 position, vec3 normal) { return 0; }
+float shadowFactor(int light, int point) {
+    return texelFetch(tracedFactors, ivec3(ivec2(gl_FragCoord.xy), light), 0).r;
+}
+)glsl";
+}
+
 std::string_view meshColor() noexcept {
     return R"glsl(
 in vec3 vPosition;
@@ -365,6 +376,9 @@ void main() {
 #if SHADOW_PLACES > 0
     ShadowPoint point = interpolatedPoint(0, placeOf(0));
     if (lit > 0.0 && lights[0].ambient.w > 0.0) lit = shadowFactor(0, point);
+#endif
+#ifdef TRACED
+    if (lights[0].ambient.w > 0.0) lit *= shadowFactor(0, 0);
 #endif
     // 128 means that there is no surface.
     float byteValue = floor(lit * 255.0 + 0.5);

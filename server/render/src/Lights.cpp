@@ -35,6 +35,15 @@ bool reaches(const shadow_fit::LightShape& shape, const std::array<math::Plane, 
     });
 }
 
+/// Whether a viewport wants shadows of a light.
+bool casts(const scene::FlatScene::LightUse& use, const scene::ShadowViewport& viewport) {
+    const auto& wanted = viewport.lightNodes;
+    return use.light->on && use.light->castsShadow &&
+           (wanted.empty() || std::any_of(wanted.begin(), wanted.end(), [&](const auto& ref) {
+                return ref.id == use.node->id();
+            }));
+}
+
 LightBlock blockFor(const scene::FlatScene::LightUse& use, const shadow_fit::LightShape& shape,
                     const math::dvec3& origin) {
     LightBlock block;
@@ -61,6 +70,11 @@ LightBlock blockFor(const scene::FlatScene::LightUse& use, const shadow_fit::Lig
 
 }  // namespace
 
+bool isTraced(const scene::Viewport& viewport) {
+    const auto* shadowed = dynamic_cast<const scene::ShadowViewport*>(&viewport);
+    return shadowed != nullptr && shadowed->shadowOn && shadowed->technique.get() == "ray";
+}
+
 Lights::Lights(const gl::Api& gl) : gl_{gl}, lights_{gl}, view_{gl} {
     lights_.label("lights");
     view_.label("view");
@@ -73,6 +87,8 @@ Lights::Uploaded Lights::upload(const scene::FlatScene& flat, const math::View& 
                                 const math::dvec3& origin, const scene::Viewport& viewport,
                                 shadow::ShadowMaps* maps, int only) {
     Uploaded done;
+    const auto* shadowed = dynamic_cast<const scene::ShadowViewport*>(&viewport);
+    const bool tracing = isTraced(viewport);
     std::array<LightBlock, scene::FlatScene::maxLights> blocks;
     std::array<field::Id, scene::FlatScene::maxLights> order;
     std::uint64_t used = 0;
@@ -90,7 +106,10 @@ Lights::Uploaded Lights::upload(const scene::FlatScene& flat, const math::View& 
             return;
         }
         LightBlock block = blockFor(use, shape, origin);
-        block.ambient.w = maps != nullptr && maps->count(use.node->id()) > 0 ? 1.0F : 0.0F;
+        const bool rays = tracing && casts(use, *shadowed);
+        if (rays) done.traced.push_back({.layer = done.count, .shape = shape});
+        block.ambient.w =
+            rays || (maps != nullptr && maps->count(use.node->id()) > 0) ? 1.0F : 0.0F;
         block.index = {static_cast<std::uint32_t>(i), 0U, 0U, 0U};
         order[static_cast<std::size_t>(done.count)] = use.node->id();
         used |= std::uint64_t{1} << i;
@@ -99,7 +118,9 @@ Lights::Uploaded Lights::upload(const scene::FlatScene& flat, const math::View& 
     for (std::size_t i = 0; i < uses.size(); ++i) put(i, true);
     done.directional = done.count;
     for (std::size_t i = 0; i < uses.size(); ++i) put(i, false);
-    if (maps != nullptr)
+    if (!done.traced.empty())
+        done.maps = {.mapsPerLight = 1, .lights = done.count, .traced = true};
+    else if (maps != nullptr)
         done.maps = maps->arrange(std::span{order}.first(static_cast<std::size_t>(done.count)));
     done.scoped = std::any_of(flat.instances().begin(), flat.instances().end(),
                               [&](const scene::FlatScene::Instance& instance) {
@@ -112,7 +133,7 @@ Lights::Uploaded Lights::upload(const scene::FlatScene& flat, const math::View& 
     const math::vec3& ground = viewport.ambientGround;
     block.ambientMiddle = math::vec4{(sky + ground) * 0.5F, 0.0F};
     block.ambientHalf = math::vec4{(sky - ground) * 0.5F, 0.0F};
-    if (const auto* shadowed = dynamic_cast<const scene::ShadowViewport*>(&viewport)) {
+    if (shadowed != nullptr) {
         const math::vec4 color = shadowed->shadowColor;
         block.shade = (math::vec4{1.0F} - color) * color.w;
     }

@@ -6,7 +6,14 @@
 #include <gnomon/scene/Window.h>
 #include <gnomon/shadow/ShadowMaps.h>
 
+#include <vector>
+
+#include "RayShadows.h"
+
 namespace gnomon::render {
+
+/// Whether a viewport's shadows are traced.
+bool isTraced(const scene::Viewport& viewport);
 
 /// The lights and the view, as the surface shaders read them.
 class Lights {
@@ -22,6 +29,7 @@ public:
         int directional = 0;  ///< the first of them
         bool scoped = false;  ///< some surface is not lit by all of them
         shadow::ShadowMaps::Arranged maps = {};
+        std::vector<RayShadows::Light> traced = {};  ///< lights whose shadows are
     };
     /// Writes what reaches the view; binds both blocks, and the shadow maps in the lights' order.
     /// @param only  -1: all that are on; else just this one, at index 0, on or off.

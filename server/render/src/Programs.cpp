@@ -30,6 +30,7 @@ std::string definesFor(const Variant& v) {
     define((v.features & Variant::shadows) != 0, "SHADOWS");
     define((v.features & Variant::pagedMaps) != 0, "PAGED_MAPS");
     define((v.features & Variant::perspectiveMaps) != 0, "PERSPECTIVE_MAPS");
+    define((v.features & Variant::traced) != 0, "TRACED");
     define(v.pass == Variant::Pass::depth, "DEPTH_ONLY");
     const auto calls = [&](const char* list, const char* call, int first, int count) {
         text += std::string{"#define "} + list;
@@ -70,7 +71,7 @@ void Programs::useFilter(std::string_view name) {
     filter_ = name;
     std::erase_if(meshes_,
                   [](const auto& entry) { return (entry.first.features & Variant::shadows) != 0; });
-    std::erase_if(combine_, [](const auto& entry) { return entry.first.first > 0; });
+    std::erase_if(combine_, [](const auto& entry) { return std::get<0>(entry.first) > 0; });
 }
 
 GLuint Programs::mesh(const Variant& variant) {
@@ -78,10 +79,14 @@ GLuint Programs::mesh(const Variant& variant) {
     if (!isNew) return at->second.id();
     const std::string defines = definesFor(variant);
     const bool shadows = (variant.features & Variant::shadows) != 0;
-    const std::string_view maps = shadows ? shadow::mapsGlsl() : "";
-    const std::string_view lookup = shadows ? shadow::lookupGlsl() : "";
-    const std::string_view shared = shadows ? shadow::findFilter(filter_)->shared : "";
-    const std::string_view filter = shadows ? shadow::findFilter(filter_)->glsl : "";
+    const bool traced = (variant.features & Variant::traced) != 0;
+    const bool mapped = shadows && !traced;
+    const std::string_view maps = mapped ? shadow::mapsGlsl() : "";
+    const std::string_view lookup = traced   ? glsl::tracedLookup()
+                                    : mapped ? shadow::lookupGlsl()
+                                             : "";
+    const std::string_view shared = mapped ? shadow::findFilter(filter_)->shared : "";
+    const std::string_view filter = mapped ? shadow::findFilter(filter_)->glsl : "";
     switch (variant.pass) {
         case Variant::Pass::color:
             at->second =
@@ -124,7 +129,7 @@ GLuint Programs::depthRange() {
 }
 
 GLuint Programs::combine(const shadow::ShadowMaps::Arranged& maps) {
-    gl::Program& program = combine_[{maps.mapsPerLight, maps.perspective}];
+    gl::Program& program = combine_[{maps.mapsPerLight, maps.perspective, maps.traced}];
     if (program) return program.id();
     if (maps.mapsPerLight == 0) {
         program =
@@ -134,6 +139,11 @@ GLuint Programs::combine(const shadow::ShadowMaps::Arranged& maps) {
     std::string defines = "#define SHADOWS\n#define PAGED_MAPS\n#define MAPS_PER_LIGHT " +
                           std::to_string(maps.mapsPerLight) + "\n";
     if (maps.perspective) defines += "#define PERSPECTIVE_MAPS\n";
+    if (maps.traced) {
+        program = build("combine", defines, {glsl::coverVertex()},
+                        {glsl::meshCommon(), glsl::tracedLookup(), glsl::combine()});
+        return program.id();
+    }
     program = build(
         "combine", defines, {glsl::coverVertex()},
         {glsl::meshCommon(), shadow::mapsGlsl(), shadow::lookupGlsl(),

@@ -9,6 +9,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <unordered_map>
 
 namespace gnomon::render {
@@ -27,6 +28,7 @@ struct Variant {
         manyLights = 128,       ///< more lights than are written out
         pagedMaps = 256,        ///< some shadow map has several pages
         perspectiveMaps = 512,  ///< some shadow map has a w that is not 1
+        traced = 1024,          ///< factors are read, not found in maps
     };
     static constexpr int maxDirectional = 4;  ///< directional lights a program is written out for
     static constexpr int maxOther = 8;        ///< and others
@@ -78,7 +80,7 @@ private:
     gl::Program background_;
     gl::Program foreground_;
     gl::Program depthRange_;
-    std::map<std::pair<int, bool>, gl::Program> combine_;  ///< by maps per light and perspective
+    std::map<std::tuple<int, bool, bool>, gl::Program> combine_;  ///< by maps per light ...
     std::unordered_map<field::Id, Foreign> foreign_;
 };
 

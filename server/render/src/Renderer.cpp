@@ -11,6 +11,7 @@
 #include "DepthReducer.h"
 #include "Lights.h"
 #include "Overlay.h"
+#include "RayShadows.h"
 #include "SceneDrawer.h"
 #include "Target.h"
 
@@ -48,6 +49,7 @@ struct Renderer::Parts {
         scene::CameraView camera = {};
         scene::PixelRect pixels = {};
         SceneDrawer* drawer = nullptr;
+        std::unique_ptr<truth::RayScene>* rays = nullptr;
         std::vector<const scene::ShadowState*> states = {};
         math::dvec3 origin{0.0};
 
@@ -65,7 +67,8 @@ struct Renderer::Parts {
     }
     Result<Seen> look(const scene::Window& window, const scene::Viewport& viewport);
     Result<Target*> target(const scene::Window& window, bool stencil);
-    SceneDrawer& drawer(const scene::Viewport& viewport);
+    struct Drawer;
+    Drawer& drawer(const scene::Viewport& viewport);
     std::vector<const scene::ShadowState*> statesFor(const scene::Viewport& viewport,
                                                      field::Id group) const;
     Result<void> drawViewport(const scene::Window& window, const scene::Viewport& viewport,
@@ -73,6 +76,8 @@ struct Renderer::Parts {
     /// Into these pixels of the target, whose depth is cleared.
     void beginPass(const Target& target, const scene::PixelRect& pixels) const;
     shadow::ShadowStatistics prepareMaps(const Seen& seen, const scene::Viewport& viewport);
+    /// Finds the factors of an upload's lights, where they are traced, and binds them.
+    void trace(const Seen& seen, const Lights::Uploaded& lit, RayShadows& into, glm::ivec2 size);
     void combine(const Target& target, const Seen& seen,
                  const shadow::ShadowMaps::Arranged& arranged);
     Result<std::optional<shadow_fit::DepthSpan>> depthSpan(const scene::Window& window,
@@ -94,10 +99,13 @@ struct Renderer::Parts {
     std::map<field::Id, Target> targets;
     struct Drawer {
         std::unique_ptr<SceneDrawer> drawer = {};
-        bool current = false;  ///< follows the last change list
+        std::unique_ptr<truth::RayScene> rays = {};  ///< once something was traced
+        bool current = false;                        ///< follows the last change list
     };
     using DrawerKey = std::pair<field::Id, std::vector<field::Id>>;
     std::map<DrawerKey, Drawer> drawers;
+    std::map<field::Id, RayShadows> traced;  ///< by viewport
+    std::uint64_t version = 0;               ///< of the scene
     std::vector<field::Id> states;
     field::Applied pending;
     std::set<std::string> warned;
@@ -122,7 +130,10 @@ Renderer::~Renderer() = default;
 void Renderer::measurePasses(bool on) noexcept { parts_->measure = on; }
 bool Renderer::animates() const noexcept { return parts_->animates; }
 void Renderer::finish() const { parts_->gl.Finish(); }
-void Renderer::forgetShadows() { parts_->maps.invalidateAll(); }
+void Renderer::forgetShadows() {
+    parts_->maps.invalidateAll();
+    for (auto& [viewport, traced] : parts_->traced) traced.forget();
+}
 
 void Renderer::update(const field::Applied& applied) {
     Parts& p = *parts_;
@@ -131,6 +142,7 @@ void Renderer::update(const field::Applied& applied) {
         p.textures.forget(id);
         p.programs.forgetForeign(id);
         p.targets.erase(id);
+        p.traced.erase(id);
         std::erase(p.states, id);
     }
     for (const auto& change : applied.changed) {
@@ -143,6 +155,7 @@ void Renderer::update(const field::Applied& applied) {
             std::find(p.states.begin(), p.states.end(), change.id) == p.states.end())
             p.states.push_back(change.id);
     }
+    if (!applied.empty()) ++p.version;
     for (auto& [key, drawer] : p.drawers) {
         std::vector<scene::Ref<scene::Node>> excluded;
         for (const field::Id id : key.second) excluded.emplace_back(id);
@@ -152,10 +165,11 @@ void Renderer::update(const field::Applied& applied) {
             p.maps.invalidateAll();
         else
             p.maps.invalidate(drawer.drawer->flat().movedBounds());
+        if (drawer.rays) drawer.rays->update(drawer.drawer->flat(), drawer.rays->origin());
     }
 }
 
-SceneDrawer& Renderer::Parts::drawer(const scene::Viewport& viewport) {
+Renderer::Parts::Drawer& Renderer::Parts::drawer(const scene::Viewport& viewport) {
     DrawerKey key{viewport.root->id, {}};
     std::vector<scene::Ref<scene::Node>> excluded;
     if (const auto* shadowed = dynamic_cast<const scene::ShadowViewport*>(&viewport)) {
@@ -171,7 +185,7 @@ SceneDrawer& Renderer::Parts::drawer(const scene::Viewport& viewport) {
                              [&](const std::string& text) { warnOnce(text); });
         maps.invalidateAll();  // what casts is another set now
     }
-    return *entry.drawer;
+    return entry;
 }
 
 std::vector<const scene::ShadowState*> Renderer::Parts::statesFor(const scene::Viewport& viewport,
@@ -199,7 +213,9 @@ Result<Renderer::Parts::Seen> Renderer::Parts::look(const scene::Window& window,
     if (!math::isFinite(camera->view.clipFromWorld()))
         return fail(Errc::edit, "a camera whose matrices are not finite");
     seen.camera = *camera;
-    seen.drawer = &drawer(viewport);
+    Drawer& found = drawer(viewport);
+    seen.drawer = found.drawer.get();
+    seen.rays = &found.rays;
     seen.states = statesFor(viewport, camera->group.id);
     seen.origin = seen.states.empty() ? originFor(camera->view) : seen.states.front()->origin.get();
     return seen;
@@ -278,6 +294,10 @@ Result<void> Renderer::Parts::drawViewport(const scene::Window& window,
         warnOnce(std::to_string(drawer.flat().lightsLeftOut()) +
                  " lights more than the 64 a scene can have are left out");
 
+    if (!lit.traced.empty()) {
+        trace(seen, lit, traced.try_emplace(viewport.id(), gl).first->second, window.size);
+        done.shadowMs += lap(clock);
+    }
     beginPass(target, seen.pixels);
 
     SceneDrawer::ColorPass pass = seen.pass();
@@ -388,6 +408,27 @@ shadow::ShadowStatistics Renderer::Parts::prepareMaps(const Seen& seen,
         *seen.drawer);
 }
 
+void Renderer::Parts::trace(const Seen& seen, const Lights::Uploaded& lit, RayShadows& into,
+                            glm::ivec2 size) {
+    auto& rays = *seen.rays;
+    if (!rays) {
+        rays = std::make_unique<truth::RayScene>(scene);
+        rays->update(seen.drawer->flat(), seen.origin);
+    }
+    rays->moveTo(seen.origin);
+    const SceneDrawer::ColorPass depth = seen.pass();
+    const RayShadows::Pass pass{.clipFromWorld = depth.clipFromWorld,
+                                .pixels = seen.pixels,
+                                .size = size,
+                                .version = version};
+    if (!into.has(pass, lit.traced)) {
+        into.begin(pass, lit.count);
+        seen.drawer->drawDepth(depth);
+        into.end(pass, lit.traced, *rays);
+    }
+    into.bind();
+}
+
 void Renderer::Parts::combine(const Target& target, const Seen& seen,
                               const shadow::ShadowMaps::Arranged& arranged) {
     const GLuint depth = target.depthCopy(gl);
@@ -478,6 +519,12 @@ Result<image::Image> Renderer::shadowFactor(const scene::Window& window, std::si
     gl::Texture factor{gl, GLenum{GL_TEXTURE_2D}};
     gl::Texture depth{gl, GLenum{GL_TEXTURE_2D}};
     gl::Framebuffer framebuffer{gl};
+    RayShadows rays{gl};
+    if (!lit.traced.empty()) {
+        Parts::Seen whole = seen;
+        whole.pixels.x = whole.pixels.y = 0;
+        p.trace(whole, lit, rays, {at.width, at.height});
+    }
     gl.TextureStorage2D(factor.id(), 1, GL_R8, at.width, at.height);
     gl.TextureStorage2D(depth.id(), 1, GL_DEPTH_COMPONENT32F, at.width, at.height);
     gl.NamedFramebufferTexture(framebuffer.id(), GL_COLOR_ATTACHMENT0, factor.id(), 0);

@@ -10,8 +10,12 @@ void useMaps(Variant& variant, const SceneDrawer::ColorPass& pass, int lights) {
     if (pass.maps.mapsPerLight == 0) return;
     variant.mapsPerLight = pass.maps.mapsPerLight;
     variant.shadowLights = pass.maps.lights;
-    variant.places = std::min({pass.maps.lights, lights, Variant::maxPlaces});
     variant.features |= Variant::shadows;
+    if (pass.maps.traced) {
+        variant.features |= Variant::traced;
+        return;
+    }
+    variant.places = std::min({pass.maps.lights, lights, Variant::maxPlaces});
     if (pass.maps.paged) variant.features |= Variant::pagedMaps;
     if (pass.maps.perspective) variant.features |= Variant::perspectiveMaps;
 }
@@ -175,7 +179,9 @@ void SceneDrawer::useSurface(const BatchState& state, const ColorPass& pass) {
         variant.otherLights = 0;
         variant.features |= Variant::manyLights;
     }
-    useMaps(variant, pass, variant.directionalLights + variant.otherLights);
+    // What is traced belongs to the opaque surface behind.
+    if (!(state.blend && pass.maps.traced))
+        useMaps(variant, pass, variant.directionalLights + variant.otherLights);
     if ((state.features & Variant::unlit) != 0) {
         variant = {.format = state.format, .features = state.features};
     }

@@ -14,13 +14,14 @@ bool contains(std::span<const std::string_view> words, std::string_view word) {
 Result<TechniqueName> parseTechnique(std::string_view text,
                                      std::span<const std::string_view> filters) {
     if (text == "none") return TechniqueName{};
+    if (text == "ray") return TechniqueName{.traced = true};
     const auto plus = text.find('+');
     TechniqueName name{
         .fit = std::string{text.substr(0, plus)},
         .filter = plus == std::string_view::npos ? "hard" : std::string{text.substr(plus + 1)}};
     if (plus == std::string_view::npos && contains(filters, name.fit))
         name = {.fit = "std", .filter = std::string{text}};
-    std::string known = "none";
+    std::string known = "none ray";
     bool fitKnown = false;
     for (const FitInfo& info : fits()) {
         fitKnown = fitKnown || info.name == name.fit;

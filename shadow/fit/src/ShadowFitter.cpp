@@ -108,7 +108,8 @@ void ShadowFitter::update(field::Aspect& session, const field::Applied& applied)
         const bool previous = viewport->depthRange == scene::DepthUse::previous;
         previous_ = previous_ || previous;
         const bool exact =
-            viewport->depthRange == scene::DepthUse::exact && viewport->technique.get() != "none";
+            viewport->depthRange == scene::DepthUse::exact &&
+            viewport->technique.get() != "none" && viewport->technique.get() != "ray";
         if (exact && keep(group)) {
             waiting_.push_back(std::move(group));
             continue;

@@ -236,6 +236,43 @@ void RayScene::update(const scene::FlatScene& flat, const dvec3& origin) {
     rtcCommitScene(p.casters.get());
 }
 
+void RayScene::moveTo(const dvec3& origin) {
+    Parts& p = *parts_;
+    if (origin == p.origin) return;
+    const dvec3 by = p.origin - origin;
+    p.origin = origin;
+    for (Parts::Use& use : p.uses) {
+        if (use.mesh == nullptr) continue;
+        math::dmat4 world = use.originFromLocal;
+        world[3] += math::dvec4{by + origin, 0.0};
+        p.place(use, world);
+    }
+    rtcCommitScene(p.drawn.get());
+    rtcCommitScene(p.casters.get());
+}
+
+unsigned RayScene::blocked(const RayPacket& packet) const {
+    Asking asking{.context = {}, .drawn = false};
+    rtcInitIntersectContext(&asking.context);
+    asking.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    RTCRay8 rays{};
+    for (std::size_t i = 0; i < RayPacket::size; ++i) {
+        rays.org_x[i] = packet.from_[0][i];
+        rays.org_y[i] = packet.from_[1][i];
+        rays.org_z[i] = packet.from_[2][i];
+        rays.dir_x[i] = packet.direction_[0][i];
+        rays.dir_y[i] = packet.direction_[1][i];
+        rays.dir_z[i] = packet.direction_[2][i];
+        rays.tfar[i] = packet.reach_[i];
+        rays.mask[i] = ~0U;
+    }
+    rtcOccluded8(packet.valid_, parts_->casters.get(), &asking.context, &rays);
+    unsigned blocked = 0;
+    for (std::size_t i = 0; i < RayPacket::size; ++i)
+        if (packet.valid_[i] != 0 && rays.tfar[i] < 0.0F) blocked |= 1U << i;
+    return blocked;
+}
+
 std::optional<RayScene::Hit> RayScene::firstHit(const dvec3& from, const dvec3& direction,
                                                 double reach) const {
     Asking asking{.context = {}, .drawn = true};

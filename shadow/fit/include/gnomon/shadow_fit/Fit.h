@@ -87,10 +87,11 @@ struct FitInfo {
 /// Every fit built in, sorted by name.
 std::span<const FitInfo> fits();
 
-/// `FIT[+FILTER]` taken apart. A filter alone means std+filter; "none" has neither.
+/// `FIT[+FILTER]` taken apart. A filter alone means std+filter; "none" and "ray" need neither.
 struct TechniqueName {
     std::string fit = {};
     std::string filter = {};
+    bool traced = false;  ///< by rays
     bool none() const noexcept { return fit.empty(); }
 };
 /// Errors (Errc::config) name the words that would have done.
