@@ -44,6 +44,7 @@ struct ShadowFitter::Plan {
     std::vector<Sample> samples = {};  ///< weighed anew for each light
     math::dvec3 origin{0.0};
     int mapSize = 0, pageSize = 0;
+    int cascades = 0;
 };
 
 ShadowFitter::ShadowFitter(std::function<void(std::string)> warn) : warn_{std::move(warn)} {}
@@ -184,7 +185,9 @@ void ShadowFitter::collectGroups(const field::Aspect& session, std::vector<Group
                 group = groups.end() - 1;
             }
             const auto whole = [](int part, double share) {
-                return static_cast<int>(std::lround(std::min(part / share, 65536.0)));
+                // Tiles of tiles may have a share of nothing.
+                return share > 0.0 ? static_cast<int>(std::lround(std::min(part / share, 65536.0)))
+                                   : part;
             };
             group->pixels =
                 glm::max(group->pixels, glm::ivec2{whole(pixels.width, camera->part.width),
@@ -195,7 +198,7 @@ void ShadowFitter::collectGroups(const field::Aspect& session, std::vector<Group
                     return v.clipFromEye == camera->whole.clipFromEye &&
                            v.eyeFromWorld == camera->whole.eyeFromWorld;
                 });
-            if (!known) group->views.push_back(camera->whole);
+            if (!known && camera->whole.usable()) group->views.push_back(camera->whole);
         }
     }
 }
@@ -221,21 +224,30 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group,
     for (const math::View& view : group.views)
         eye += view.eyeWorld() / static_cast<double>(group.views.size());
     for (int i = 0; i < 3; ++i) plan.origin[i] = std::round(eye[i] / originStep) * originStep;
+    const auto& wanted = viewport.lightNodes;
+    const auto shadows = [&](const scene::FlatScene::LightUse& use) {
+        return use.light->on && use.light->castsShadow &&
+               (wanted.empty() || std::any_of(wanted.begin(), wanted.end(), [&](const auto& ref) {
+                    return ref.id == use.node->id();
+                }));
+    };
+    const auto lights = plan.seen.flat.lights();
+    const auto count = static_cast<int>(std::count_if(lights.begin(), lights.end(), shadows));
     const int asked =
         viewport.mapSize > 0 ? viewport.mapSize.get() : scene::mapSizeFor(group.pixels);
-    const int mapSize = std::clamp(asked, 16, 16384);
+    int mapSize = std::clamp(asked, 16, 16384);
+    // Many large maps: all are coarser, rather than some lights without.
+    const auto pagesOf = [](int size) { return (size + pageTexels - 1) / pageTexels; };
+    while (mapSize > pageTexels && pagesOf(mapSize) * pagesOf(mapSize) * count > mostPages)
+        mapSize /= 2;
+    plan.cascades =
+        std::clamp(viewport.cascades.get(), 2, std::max(2, mostMaps / std::max(count, 1)));
     // Whole pages: a map that is not a multiple is raised to one.
     plan.pageSize = std::min(pageTexels, mapSize);
     plan.mapSize = (mapSize + plan.pageSize - 1) / plan.pageSize * plan.pageSize;
 
-    const auto& wanted = viewport.lightNodes;
-    for (const auto& use : plan.seen.flat.lights()) {
-        if (!use.light->on || !use.light->castsShadow) continue;
-        if (wanted.empty() || std::any_of(wanted.begin(), wanted.end(), [&](const auto& ref) {
-                return ref.id == use.node->id();
-            }))
-            fit(session, group, use, plan);
-    }
+    for (const auto& use : lights)
+        if (shadows(use)) fit(session, group, use, plan);
 }
 
 void ShadowFitter::fit(field::Aspect& session, const Group& group,
@@ -249,8 +261,10 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group,
     }
     const Boxes boxes = plan.seen.clusters.boxes();
     LightShape light = lightShape(use);
+    const bool placed = usableLight(light).has_value();
     const auto receive = [&] {
         receivers_.clear();
+        if (!placed) return;
         for (const math::View& view : group.views)
             receivers_.add(view, &light, boxes.tree, plan.depth);
     };
@@ -268,32 +282,25 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group,
         receivers_.dropUnshadowed(light, boxes.tree);
     else if (!receivers_.mayBeShadowed(light, boxes.tree))
         receivers_.clear();
-    weigh(plan.samples, light, boxes);
-    Fitted fitted = plan.info.fit(
-        {.light = light,
-         .views = group.views,
-         .receivers = receivers_,
-         .samples = plan.samples,
-         .scene = plan.seen.flat.bounds(),
-         .mapSize = plan.mapSize,
-         .settings = {.range = plan.viewport.range, .cascades = plan.viewport.cascades}});
+    if (placed) weigh(plan.samples, light, boxes);
+    const Fitted made =
+        fitted(plan.info, {.light = light,
+                           .views = group.views,
+                           .receivers = receivers_,
+                           .samples = plan.samples,
+                           .scene = plan.seen.flat.bounds(),
+                           .mapSize = plan.mapSize,
+                           .settings = {.range = plan.viewport.range, .cascades = plan.cascades}});
     std::vector<math::dmat4> maps;
-    for (const FittedMap& map : fitted.maps) {
-        if (!math::isFinite(map.clipFromWorld)) {
-            fitted.degenerate = true;
-            maps.clear();
-            break;
-        }
-        maps.push_back(map.clipFromWorld);
-    }
+    for (const FittedMap& map : made.maps) maps.push_back(map.clipFromWorld);
     auto e = edit(*state);
     e->light = *use.node;
     e->group = field::WeakRef<field::FieldContainer>{group.id};
     e->filter = plan.filter;
-    e->mapSize = fitted.mapSize > 0 ? fitted.mapSize : plan.mapSize;
+    e->mapSize = made.mapSize > 0 ? made.mapSize : plan.mapSize;
     e->pageSize = std::min(plan.pageSize, e->mapSize.get());
     e->origin = plan.origin;
-    e->degenerate = fitted.degenerate;
+    e->degenerate = made.degenerate || !placed;
     e->clipFromWorld.assign(std::move(maps));
 }
 
