@@ -78,8 +78,8 @@ TEST_P(AcneGLTest, AThinPlateOnTheGroundShadowsUpToItself) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, AcneGLTest,
-                         testing::ValuesIn(shadow_fit::fits().begin(), shadow_fit::fits().end()),
-                         fitName);
+                         testing::ValuesIn(techniques()),
+                         techniqueName);
 
 }  // namespace
 }  // namespace gnomon::stress

@@ -68,8 +68,8 @@ TEST_P(ScaleGLTest, TinyAndHugeScenesAreTheSame) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ScaleGLTest,
-                         testing::ValuesIn(shadow_fit::fits().begin(), shadow_fit::fits().end()),
-                         fitName);
+                         testing::ValuesIn(techniques()),
+                         techniqueName);
 
 }  // namespace
 }  // namespace gnomon::stress

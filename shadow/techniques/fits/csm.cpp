@@ -257,8 +257,11 @@ Fitted fit(const FitInput& input) {
 }  // namespace
 
 FitInfo describe_csm() {
-    return {
-        .name = "csm", .source = "Engel 2006; Lauritzen et al. 2011", .fit = fit, .sampled = true};
+    return {.name = "csm",
+            .source = "Engel 2006; Lauritzen et al. 2011",
+            .fit = fit,
+            .sampled = true,
+            .stable = true};
 }
 
 }  // namespace gnomon::shadow_fit
