@@ -78,9 +78,7 @@ TEST_P(EyeGLTest, AShadowsEdgeIsAtOnePlaceOfTheWorld) {
     EXPECT_GT(edges, 30) << "the test saw few edges";
 }
 
-INSTANTIATE_TEST_SUITE_P(All, EyeGLTest,
-                         testing::ValuesIn(techniques()),
-                         techniqueName);
+INSTANTIATE_TEST_SUITE_P(All, EyeGLTest, testing::ValuesIn(techniques()), techniqueName);
 
 }  // namespace
 }  // namespace gnomon::render

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <ostream>
 #include <span>
 #include <string>
 #include <vector>
@@ -110,6 +111,7 @@ struct Technique {
     std::string word() const { return std::string{fit.name} + "+" + std::string{filter.name}; }
     bool hard() const noexcept { return filter.name == "hard"; }
 };
+inline void PrintTo(const Technique& technique, std::ostream* out) { *out << technique.word(); }
 /// Every fit with every filter there is: suites run over them, so that a new one is tested the day
 /// it is registered.
 std::vector<Technique> techniques();

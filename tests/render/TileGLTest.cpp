@@ -151,8 +151,7 @@ TEST_F(TileGLTest, SixTilesOfAnOffAxisScreenInStereo) {
 }
 
 /// Every technique, on the walls there are.
-class EveryTechniqueTileGLTest : public TileGLTest,
-                                 public testing::WithParamInterface<Technique> {
+class EveryTechniqueTileGLTest : public TileGLTest, public testing::WithParamInterface<Technique> {
 protected:
     EveryTechniqueTileGLTest() {
         technique = GetParam().word();
@@ -216,8 +215,7 @@ TEST_P(EveryTechniqueTileGLTest, TheFacesOfACaveEqualTheWhole) {
         expectEqual(render(*camera, 2, 2, {64, 64}, gradient(), 512));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, EveryTechniqueTileGLTest,
-                         testing::ValuesIn(techniques()),
+INSTANTIATE_TEST_SUITE_P(All, EveryTechniqueTileGLTest, testing::ValuesIn(techniques()),
                          techniqueName);
 
 TEST_F(TileGLTest, TilesWithMultisampling) {

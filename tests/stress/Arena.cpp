@@ -145,7 +145,7 @@ bool Arena::mixed(const Rays& rays, const math::dvec3& position, const math::dve
     return false;
 }
 
-image::Image Arena::truth(const View& view, const scene::Node& light) {
+image::Image Arena::truth(const View& view, const scene::Node& light, bool beyondTexels) {
     const scene::ShadowViewport& viewport = copyOf(view.viewport);
     const glm::ivec2 size = view.window.size;
     const auto camera =
@@ -158,14 +158,18 @@ image::Image Arena::truth(const View& view, const scene::Node& light) {
     });
     EXPECT_NE(use, uses.end());
     const auto shape = shadow_fit::lightShape(*use);
-    const math::dvec3 origin = glm::round(camera.view.eyeWorld());
+    // Rays are floats, too: near what they meet.
+    const math::Box bounds = flat.bounds();
+    const math::dvec3 origin =
+        glm::round(bounds.empty() ? camera.view.eyeWorld()
+                                  : glm::clamp(camera.view.eyeWorld(), bounds.min, bounds.max));
     Rays rays{.scene = truth::RayScene{server}, .light = truth::LightSampler{shape, origin}};
     rays.scene.update(flat, origin);
-    auto factor = truth::shadowTruth(rays.scene, camera.view, shape,
-                                     {.width = size.x, .height = size.y})
-                      .factor;
+    auto factor =
+        truth::shadowTruth(rays.scene, camera.view, shape, {.width = size.x, .height = size.y})
+            .factor;
     const auto* state = stateOf(view, light);
-    if (GetParam().hard() || state == nullptr) return factor;
+    if ((GetParam().hard() && !beyondTexels) || state == nullptr) return factor;
     rays.maps = mapsOf(view, light);
     rays.texels = state->mapSize;
     const math::dmat4 worldFromClip = glm::inverse(camera.view.clipFromWorld());
@@ -188,9 +192,9 @@ image::Image Arena::truth(const View& view, const scene::Node& light) {
     return factor;
 }
 
-Arena::Both Arena::both(const View& view, const scene::Node& light) {
+Arena::Both Arena::both(const View& view, const scene::Node& light, bool beyondTexels) {
     Both made{.factor = factor(view, light)};
-    made.truth = truth(view, light);
+    made.truth = truth(view, light, beyondTexels);
     made.error = orThrow(truth::compareFactors(made.truth, made.factor));
     last_ = made;
     return made;

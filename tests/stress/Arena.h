@@ -12,8 +12,8 @@ using render::Technique;
 using render::techniqueName;
 using render::techniques;
 
-/// Built under a sanitizer (GNOMON_SANITIZE): an order of magnitude slower, and looked at for what a
-/// sanitizer sees, not for rare pictures.
+/// Built under a sanitizer (GNOMON_SANITIZE): an order of magnitude slower, and looked at for what
+/// a sanitizer sees, not for rare pictures.
 #ifdef GNOMON_SANITIZED
 inline constexpr bool sanitized = true;
 #else
@@ -36,14 +36,16 @@ protected:
     /// What the viewport's picture of the light's shadow should be. A filter that is not hard blurs
     /// edges, so that where its reach in the map sees both light and shadow there is nothing to be
     /// said: there the truth is truth::noSurface, which nothing counts.
-    image::Image truth(const View& view, const scene::Node& light);
+    /// @param beyondTexels  of the hard filter, too: for maps whose texels are many pixels
+    image::Image truth(const View& view, const scene::Node& light, bool beyondTexels = false);
     struct Both {
         image::Image truth = {};
         image::Image factor = {};
         truth::ShadowError error = {};
     };
-    Both both(const View& view, const scene::Node& light);
-    /// Of the light's maps for the view.
+    Both both(const View& view, const scene::Node& light, bool beyondTexels = false);
+    /// The light's maps for the view, as the server has them.
+    const scene::ShadowState* stateOf(const View& view, const scene::Node& light) const;
     std::vector<math::dmat4> mapsOf(const View& view, const scene::Node& light) const;
     /// Takes a part of the scene and a view away again.
     void remove(const scene::Node& node, const View& view);
@@ -53,7 +55,6 @@ protected:
 private:
     struct Rays;
     bool mixed(const Rays& rays, const math::dvec3& position, const math::dvec3& normal) const;
-    const scene::ShadowState* stateOf(const View& view, const scene::Node& light) const;
     Both last_;
 };
 

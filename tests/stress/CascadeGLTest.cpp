@@ -1,4 +1,5 @@
-// Where one map ends and the next one begins, and where there are more pages than there is room for.
+// Where one map ends and the next one begins, and where there are more pages than there is room
+// for.
 #include <cmath>
 
 #include "Arena.h"
@@ -25,13 +26,15 @@ TEST_P(CascadeGLTest, AShadowThroughAllMapsHasNoGapAndNoStep) {
     for (int step = 0; step < 8; ++step) {
         const double z = 12.0 - 1.7 * step;
         place(*app.get(lens.beacon.get()), {2.0, 2.5, z}, {0.5, 0.0, z - 12.0});
-        const auto made = both(eye, sun.node);
-        EXPECT_EQ(lostShadow(made.truth, made.factor, 3), 0) << "step " << step;
-        EXPECT_EQ(falseShadow(made.truth, made.factor, 3), 0) << "step " << step;
-        if (GetParam().fit.sampled && GetParam().hard()) {
-            // Of fits that look at the picture, the coarser map's edge is within a pixel or two.
-            EXPECT_LE(made.error.edge95, 2.0) << "step " << step;
-        }
+        // A plain map's texels are a metre here. Where they see one thing alone, not one pixel may
+        // be of the other; but for outlines, where the ray and the rasterizer may see two surfaces.
+        const auto made = both(eye, sun.node, true);
+        EXPECT_EQ(lostShadow(made.truth, made.factor, 1), 0) << "step " << step;
+        EXPECT_EQ(falseShadow(made.truth, made.factor, 1), 0) << "step " << step;
+        if (!GetParam().fit.sampled || !GetParam().hard()) continue;
+        // Of fits that look at the picture, the coarser map's edge is within a pixel or two.
+        const auto all = both(eye, sun.node);
+        EXPECT_LE(all.error.edge95, 2.0) << "step " << step;
         std::size_t shadowed = 0;
         for (const std::uint8_t value : made.truth.pixels) shadowed += value == 0 ? 1U : 0U;
         EXPECT_GT(shadowed, 500U);
@@ -41,7 +44,9 @@ TEST_P(CascadeGLTest, AShadowThroughAllMapsHasNoGapAndNoStep) {
 // Stress case 26: more lights with large maps than there are pages. All of them are coarser; none
 // is without its shadows.
 TEST_P(CascadeGLTest, MorePagesThanThereAreMakesMapsCoarserAndNothingElse) {
-    constexpr int count = 20;
+    if (!GetParam().hard()) GTEST_SKIP() << "pages are no matter of the filter";
+    if (sanitized) GTEST_SKIP() << "gigabytes of pages";
+    constexpr int count = 17;  // of 256 pages each that were asked for
     std::vector<scene::Ref<scene::Node>> lights;
     const scene::Node* below = &root;
     for (int i = 0; i < count; ++i) {
@@ -54,28 +59,28 @@ TEST_P(CascadeGLTest, MorePagesThanThereAreMakesMapsCoarserAndNothingElse) {
     }
     const auto painted = paint(*below, phong(vec3{0.8F}));
     add(painted.node, quad({-8.0F, 0.0F, 8.0F}, {16.0F, 0.0F, 0.0F}, {0.0F, 0.0F, -16.0F}));
-    for (int i = 0; i < 9; ++i) {
-        const vec3 low{-4.0F + 3.0F * static_cast<float>(i % 3), 0.5F,
-                       -4.0F + 3.0F * static_cast<float>(i / 3)};
-        add(painted.node, box(low, low + vec3{0.6F, 0.2F, 0.6F}), true);
+    for (int i = 0; i < 81; ++i) {
+        const vec3 low{-0.45F + 0.1F * static_cast<float>(i % 9), 0.03F,
+                       -0.45F + 0.1F * static_cast<float>(i / 9)};
+        add(painted.node, box(low, low + vec3{0.04F, 0.005F, 0.04F}), true);
     }
-    // A part of the whole, whose pages are few.
+    // So small a part of the whole that it looks up a page or two of each map.
     const auto& tile = app.create<scene::TileDecorator>();
     {
         auto e = edit(tile);
         e->decoratee = perspectiveView({0.0, 6.0, 8.0}, {0.0, 0.0, 0.0});
-        e->part = math::Rect{.left = 0.46, .bottom = 0.46, .width = 0.08, .height = 0.08};
+        e->part = math::Rect{.left = 0.49, .bottom = 0.49, .width = 0.02, .height = 0.02};
     }
     const View eye = seen(tile, 64, 64, 16384);
-    for (const auto& ref : {lights.front(), lights.back()}) {
-        const auto made = both(eye, *app.get(ref));
-        EXPECT_FALSE(mapsOf(eye, *app.get(ref)).empty());
-        std::size_t shadowed = 0;
-        for (const std::uint8_t value : made.truth.pixels) shadowed += value == 0 ? 1U : 0U;
-        EXPECT_GT(shadowed, 50U);
-        EXPECT_LE(lostShadow(made.truth, made.factor, 2), 4);
-        EXPECT_LE(falseShadow(made.truth, made.factor, 2), 4);
-    }
+    edit(eye.viewport)->cascades = 2;
+    const scene::Node& last = *app.get(lights.back());
+    const auto made = both(eye, last);
+    EXPECT_FALSE(mapsOf(eye, last).empty());
+    std::size_t shadowed = 0;
+    for (const std::uint8_t value : made.truth.pixels) shadowed += value == 0 ? 1U : 0U;
+    EXPECT_GT(shadowed, 50U);
+    EXPECT_LE(lostShadow(made.truth, made.factor, 2), 4);
+    EXPECT_LE(falseShadow(made.truth, made.factor, 2), 4);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, CascadeGLTest, testing::ValuesIn(techniques()), techniqueName);

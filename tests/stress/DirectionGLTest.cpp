@@ -169,9 +169,7 @@ TEST_P(DirectionGLTest, WiresThinnerThanATexelAreAllThatIsMissed) {
     EXPECT_LE(lostShadow(made.truth, made.factor, 2), 4) << "the box keeps its shadow";
 }
 
-INSTANTIATE_TEST_SUITE_P(All, DirectionGLTest,
-                         testing::ValuesIn(techniques()),
-                         techniqueName);
+INSTANTIATE_TEST_SUITE_P(All, DirectionGLTest, testing::ValuesIn(techniques()), techniqueName);
 
 }  // namespace
 }  // namespace gnomon::stress

@@ -15,7 +15,7 @@ using math::vec3;
 
 /// Of each fit: 2,000 and more in all. Filters, which know of no light or camera, need fewer.
 constexpr int pairs = sanitized ? 100 : 400;
-constexpr int size = 128;   // pixels a side
+constexpr int size = 128;  // pixels a side
 
 class RaysGLTest : public Arena {
 protected:
@@ -103,9 +103,7 @@ TEST_P(RaysGLTest, NoShadowIsLostOrMadeUp) {
                 technique().c_str(), 100.0 * wrong / wanted, degenerate, wanted);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, RaysGLTest,
-                         testing::ValuesIn(techniques()),
-                         techniqueName);
+INSTANTIATE_TEST_SUITE_P(All, RaysGLTest, testing::ValuesIn(techniques()), techniqueName);
 
 }  // namespace
 }  // namespace gnomon::stress

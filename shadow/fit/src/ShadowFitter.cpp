@@ -223,6 +223,9 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group,
     math::dvec3 eye{0.0};
     for (const math::View& view : group.views)
         eye += view.eyeWorld() / static_cast<double>(group.views.size());
+    // Near what is seen, too: from far away all of it would be floats that differ in the last bits.
+    const math::Box bounds = plan.seen.flat.bounds();
+    if (!bounds.empty()) eye = glm::clamp(eye, bounds.min, bounds.max);
     for (int i = 0; i < 3; ++i) plan.origin[i] = std::round(eye[i] / originStep) * originStep;
     const auto& wanted = viewport.lightNodes;
     const auto shadows = [&](const scene::FlatScene::LightUse& use) {

@@ -99,8 +99,8 @@ struct FitInfo {
     /// casts; else they stay where they are while things move in them.
     bool shadowedOnly = false;
     bool sampled = false;  ///< reads the samples; else there are none
-    /// While the view moves a little, its maps' texels stay where they are in the world, but for
-    /// rare steps.
+    /// While the view moves a little, its maps' texels stay where they are in the world, until a
+    /// size or a split takes a step.
     bool stable = false;
 };
 
