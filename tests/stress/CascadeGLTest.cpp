@@ -64,6 +64,11 @@ TEST_P(CascadeGLTest, MorePagesThanThereAreMakesMapsCoarserAndNothingElse) {
                        -0.45F + 0.1F * static_cast<float>(i / 9)};
         add(painted.node, box(low, low + vec3{0.04F, 0.005F, 0.04F}), true);
     }
+    // Shadows all over, which every map must hold.
+    for (int i = 0; i < 4; ++i) {
+        const vec3 low{i % 2 == 0 ? -7.0F : 6.0F, 0.5F, i / 2 == 0 ? -7.0F : 3.0F};
+        add(painted.node, box(low, low + vec3{0.5F}), true);
+    }
     // So small a part of the whole that it looks up a page or two of each map.
     const auto& tile = app.create<scene::TileDecorator>();
     {
