@@ -11,7 +11,7 @@ namespace {
 using math::dvec3;
 using math::vec3;
 
-class EyeGLTest : public RenderTest, public testing::WithParamInterface<shadow_fit::FitInfo> {};
+class EyeGLTest : public RenderTest, public testing::WithParamInterface<Technique> {};
 
 /// The ground's factor, looked up in an eye's picture at a place of the world.
 int factorAt(const image::Image& factor, const math::View& view, const dvec3& world) {
@@ -42,7 +42,7 @@ TEST_P(EyeGLTest, AShadowsEdgeIsAtOnePlaceOfTheWorld) {
         cameras.push_back(&camera);
         eyes.push_back(view(camera, 512, 384));
         auto e = edit(eyes.back().viewport);
-        e->technique = std::string{GetParam().name};
+        e->technique = GetParam().word();
         e->mapSize = 256;  // texels that many pixels see
     }
     update();
@@ -78,9 +78,7 @@ TEST_P(EyeGLTest, AShadowsEdgeIsAtOnePlaceOfTheWorld) {
     EXPECT_GT(edges, 30) << "the test saw few edges";
 }
 
-INSTANTIATE_TEST_SUITE_P(All, EyeGLTest,
-                         testing::ValuesIn(shadow_fit::fits().begin(), shadow_fit::fits().end()),
-                         fitName);
+INSTANTIATE_TEST_SUITE_P(All, EyeGLTest, testing::ValuesIn(techniques()), techniqueName);
 
 }  // namespace
 }  // namespace gnomon::render

@@ -201,8 +201,16 @@ void RenderTest::expectClose(const Rgb& found, const Rgb& expected, int toleranc
         EXPECT_NEAR(found[c], expected[c], tolerance) << what << ", channel " << c;
 }
 
-std::string fitName(const testing::TestParamInfo<shadow_fit::FitInfo>& info) {
-    return std::string{info.param.name};
+std::vector<Technique> techniques() {
+    std::vector<Technique> all;
+    for (const shadow_fit::FitInfo& fit : shadow_fit::fits())
+        for (const shadow::FilterInfo& filter : shadow::filters()) all.push_back({fit, filter});
+    return all;
+}
+
+std::string techniqueName(const testing::TestParamInfo<Technique>& info) {
+    const std::string fit{info.param.fit.name};
+    return info.param.hard() ? fit : fit + "_" + std::string{info.param.filter.name};
 }
 
 bool blocks(const math::Box& box, const dvec3& from, const dvec3& way, double reach) {

@@ -4,11 +4,13 @@
 #include <gnomon/image/Compare.h>
 #include <gnomon/render/Renderer.h>
 #include <gnomon/scene/Types.h>
+#include <gnomon/shadow/Filter.h>
 #include <gnomon/shadow_fit/ShadowFitter.h>
 
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <ostream>
 #include <span>
 #include <string>
 #include <vector>
@@ -101,8 +103,20 @@ protected:
 private:
 };
 
-/// Names the rows of suites over all fits.
-std::string fitName(const testing::TestParamInfo<shadow_fit::FitInfo>& info);
+/// A fit and a filter.
+struct Technique {
+    shadow_fit::FitInfo fit = {};
+    shadow::FilterInfo filter = {};
+    /// What a viewport calls it.
+    std::string word() const { return std::string{fit.name} + "+" + std::string{filter.name}; }
+    bool hard() const noexcept { return filter.name == "hard"; }
+};
+inline void PrintTo(const Technique& technique, std::ostream* out) { *out << technique.word(); }
+/// Every fit with every filter there is: suites run over them, so that a new one is tested the day
+/// it is registered.
+std::vector<Technique> techniques();
+/// Names the rows of such suites: a fit alone where its filter is the hard one.
+std::string techniqueName(const testing::TestParamInfo<Technique>& info);
 
 /// Axis-aligned box against a ray: what shadows what, without any of the code under test.
 /// @param reach  length of the ray, in lengths of @p way

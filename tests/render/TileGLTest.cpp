@@ -151,11 +151,10 @@ TEST_F(TileGLTest, SixTilesOfAnOffAxisScreenInStereo) {
 }
 
 /// Every technique, on the walls there are.
-class EveryTechniqueTileGLTest : public TileGLTest,
-                                 public testing::WithParamInterface<shadow_fit::FitInfo> {
+class EveryTechniqueTileGLTest : public TileGLTest, public testing::WithParamInterface<Technique> {
 protected:
     EveryTechniqueTileGLTest() {
-        technique = GetParam().name;
+        technique = GetParam().word();
         const auto sun = light<scene::DirectionalLight>(root, {-2.0, 3.0, 1.0}, {0.0, 0.0, 0.0});
         const auto spot = light<scene::SpotLight>(sun.node, {3.0, 7.0, 4.0}, {0.0, 0.0, 0.0});
         edit(sun.core)->intensity = 0.5F;
@@ -216,9 +215,8 @@ TEST_P(EveryTechniqueTileGLTest, TheFacesOfACaveEqualTheWhole) {
         expectEqual(render(*camera, 2, 2, {64, 64}, gradient(), 512));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, EveryTechniqueTileGLTest,
-                         testing::ValuesIn(shadow_fit::fits().begin(), shadow_fit::fits().end()),
-                         fitName);
+INSTANTIATE_TEST_SUITE_P(All, EveryTechniqueTileGLTest, testing::ValuesIn(techniques()),
+                         techniqueName);
 
 TEST_F(TileGLTest, TilesWithMultisampling) {
     const auto sun = light<scene::DirectionalLight>(root, {-2.0, 3.0, 1.0}, {0.0, 0.0, 0.0});

@@ -16,7 +16,7 @@ TEST(Filters, EachSaysWhereItIsFromAndDefinesTheLookup) {
         EXPECT_FALSE(info.source.empty()) << info.name;
         EXPECT_NE(info.glsl.find("float filteredShadow(int first, ShadowPoint point)"),
                   std::string_view::npos);
-        EXPECT_GE(info.radiusTexels, 0.5F);
+        EXPECT_GE(info.leastTexels, 0.5F);
         EXPECT_EQ(findFilter(info.name)->glsl, info.glsl);
     }
     EXPECT_NE(findFilter("hard"), nullptr) << "the default";

@@ -6,10 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <random>
 #include <string>
 #include <tuple>
 #include <vector>
+
+#include "Chance.h"
 
 namespace gnomon::shadow_fit {
 namespace {
@@ -18,25 +19,6 @@ using math::dmat4;
 using math::dvec2;
 using math::dvec3;
 using math::dvec4;
-
-class Chance {
-public:
-    explicit Chance(unsigned seed) : random_{seed} {}
-    double between(double low, double high) {
-        return std::uniform_real_distribution<double>{low, high}(random_);
-    }
-    dvec3 point(const dvec3& low, const dvec3& high) {
-        return {between(low.x, high.x), between(low.y, high.y), between(low.z, high.z)};
-    }
-    dvec3 direction() {
-        std::normal_distribution<double> g;
-        return glm::normalize(dvec3{g(random_), g(random_), g(random_)});
-    }
-    bool coin() { return between(0.0, 1.0) < 0.5; }
-
-private:
-    std::mt19937 random_;
-};
 
 struct Situation {
     LightShape light = {};
@@ -50,13 +32,13 @@ struct Situation {
         tree.build({scene});
         const auto seen = receivers(tree);
         const auto samples = samplePicture(views, {.tree = tree}, 12);
-        return info.fit({.light = light,
-                         .views = views,
-                         .receivers = seen,
-                         .samples = samples,
-                         .scene = scene,
-                         .mapSize = mapSize,
-                         .settings = settings});
+        return shadow_fit::fitted(info, {.light = light,
+                                         .views = views,
+                                         .receivers = seen,
+                                         .samples = samples,
+                                         .scene = scene,
+                                         .mapSize = mapSize,
+                                         .settings = settings});
     }
     Receivers receivers(const math::BoxTree& tree) const {
         Receivers seen;

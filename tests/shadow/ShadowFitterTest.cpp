@@ -359,5 +359,35 @@ TEST_F(ShadowFitterTest, ChosenLightsAlone) {
     EXPECT_EQ(onlyState().light->id, second.node.id());
 }
 
+TEST_F(ShadowFitterTest, SoManyLightsWithLargeMapsShareThePagesThereAre) {
+    for (int i = 1; i < 40; ++i) {
+        const auto more = makeNode<DirectionalLight>(app, "sun");
+        edit(sun.node)->addChild(more.node);
+        edit(more.core)->beacon = beacon.node;
+        // Above what they light.
+        edit(more.node)->addChild(makeNode<Group>(app, "none").node);
+    }
+    for (const FitInfo& info : fits()) {
+        for (const ShadowViewport* viewport : viewports) {
+            auto e = edit(*viewport);
+            e->technique = std::string{info.name};
+            e->mapSize = 16384;
+            e->cascades = 8;
+        }
+        frame();
+        std::size_t maps = 0;
+        std::size_t pages = 0;
+        for (const ShadowState* state : states()) {
+            const auto side = static_cast<std::size_t>(state->mapSize / state->pageSize);
+            maps += state->clipFromWorld.size();
+            pages += state->clipFromWorld.size() * side * side;
+            EXPECT_GE(state->mapSize.get(), 256);
+        }
+        EXPECT_EQ(states().size(), 40U);
+        EXPECT_LE(maps, static_cast<std::size_t>(mostMaps)) << info.name;
+        EXPECT_LE(pages, static_cast<std::size_t>(mostPages)) << info.name;
+    }
+}
+
 }  // namespace
 }  // namespace gnomon::shadow_fit

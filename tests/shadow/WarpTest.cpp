@@ -24,7 +24,7 @@ const std::vector<dvec2> outline{{0.0, 0.0}, {10.0, 1.0}, {14.0, 30.0}, {2.0, 33
 TEST(PlaneMap, HoldsItsOutlineWithABorder) {
     const dvec2 along = glm::normalize(dvec2{0.3, 1.0});
     for (const double strength : {0.0, 0.5, 4.0, 40.0}) {
-        const dmat3 map = warpedMap(outline, {.along = along, .strength = strength}, 256);
+        const dmat3 map = warpedMap(outline, {.along = along, .strength = strength}, 256).value();
         double most = 0.0;
         for (const dvec2& p : outline) {
             EXPECT_GE((map * dvec3{p, 1.0}).z, 1.0 - 1e-12) << "w is 1 at the least";
@@ -39,7 +39,7 @@ TEST(PlaneMap, HoldsItsOutlineWithABorder) {
 TEST(PlaneMap, StrengthIsHowMuchFinerTheNearSideIs) {
     const std::vector<dvec2> square{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
     const dmat3 map =
-        warpedMap(square, {.along = {0.0, 1.0}, .strength = 3.0, .beside = 0.5}, 4096);
+        warpedMap(square, {.along = {0.0, 1.0}, .strength = 3.0, .beside = 0.5}, 4096).value();
     const auto across = [&](double y) {
         return mapped(map, {0.51, y}).x - mapped(map, {0.49, y}).x;
     };
@@ -48,7 +48,7 @@ TEST(PlaneMap, StrengthIsHowMuchFinerTheNearSideIs) {
 }
 
 TEST(PlaneMap, ZeroStrengthIsThePlainMap) {
-    const dmat3 map = warpedMap(outline, {.along = {0.0, 1.0}, .strength = 0.0}, 256);
+    const dmat3 map = warpedMap(outline, {.along = {0.0, 1.0}, .strength = 0.0}, 256).value();
     EXPECT_EQ(map[0].z, 0.0);
     EXPECT_EQ(map[1].z, 0.0);
     EXPECT_EQ(map[2].z, 1.0);
@@ -101,8 +101,8 @@ TEST(BestWarp, IsNeverExpectedToErrMoreThanWhatItIsGuessedFrom) {
         const auto expected = [&](const dmat3& map) {
             return expectedError(ground.plane, map, 1024, s.samples);
         };
-        const double best = expected(bestWarp(ground, guess, 1024, s.samples));
-        const double guessed = expected(warpedMap(ground.outline.hull, guess, 1024));
+        const double best = expected(bestWarp(ground, guess, 1024, s.samples).value());
+        const double guessed = expected(warpedMap(ground.outline.hull, guess, 1024).value());
         // Its border and its parallelogram's reach differ a little from the guess's.
         EXPECT_LT(best, guessed * 1.02) << "round " << round;
         better += best < 0.9 * guessed ? 1 : 0;
@@ -116,7 +116,8 @@ TEST(BestWarp, HoldsTheWholeOutline) {
         Situation s;
         look(s, random);
         const Ground ground{s.input()};
-        const dmat3 map = bestWarp(ground, {.along = {0.0, 1.0}, .strength = 2.0}, 1024, s.samples);
+        const dmat3 map =
+            bestWarp(ground, {.along = {0.0, 1.0}, .strength = 2.0}, 1024, s.samples).value();
         for (const dvec2& p : ground.outline.hull) {
             EXPECT_GE((map * dvec3{p, 1.0}).z, 1.0 - 1e-9);
             const dvec2 q = mapped(map, p);

@@ -77,9 +77,7 @@ TEST_P(AcneGLTest, AThinPlateOnTheGroundShadowsUpToItself) {
     EXPECT_LT(made.error.share(made.error.falseLight), 0.004);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, AcneGLTest,
-                         testing::ValuesIn(shadow_fit::fits().begin(), shadow_fit::fits().end()),
-                         fitName);
+INSTANTIATE_TEST_SUITE_P(All, AcneGLTest, testing::ValuesIn(techniques()), techniqueName);
 
 }  // namespace
 }  // namespace gnomon::stress

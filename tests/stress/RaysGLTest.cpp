@@ -13,8 +13,9 @@ namespace {
 using math::dvec3;
 using math::vec3;
 
-constexpr int pairs = 400;  // of each technique: 2,000 and more in all
-constexpr int size = 128;   // pixels a side
+/// Of each fit: 2,000 and more in all. Filters, which know of no light or camera, need fewer.
+constexpr int pairs = sanitized ? 100 : 400;
+constexpr int size = 128;  // pixels a side
 
 class RaysGLTest : public Arena {
 protected:
@@ -54,7 +55,8 @@ TEST_P(RaysGLTest, NoShadowIsLostOrMadeUp) {
     int shadowed = 0;
     int degenerate = 0;
     double wrong = 0.0;
-    for (int i = 0; i < pairs; ++i) {
+    const int wanted = GetParam().hard() ? pairs : pairs / 4;
+    for (int i = 0; i < wanted; ++i) {
         const bool useSun = i % 2 == 0;
         // From above the ground, as low as two degrees.
         dvec3 toward = direction();
@@ -90,20 +92,18 @@ TEST_P(RaysGLTest, NoShadowIsLostOrMadeUp) {
         // A texel that lies across a crease is compared with the wrong plane: a line of pixels.
         ASSERT_LE(falseShadow(made.truth, made.factor, 3), 12) << "pair " << i;
     }
-    EXPECT_GT(shadowed, 100000) << "the test saw few shadows";
-    EXPECT_LT(wrong / pairs, 0.02);
-    if (technique() == "std") {
+    EXPECT_GT(shadowed, 200 * wanted) << "the test saw few shadows";
+    EXPECT_LT(wrong / wanted, 0.02);
+    if (technique() == plain()) {
         EXPECT_EQ(degenerate, 0);
     }
     RecordProperty("degenerate", degenerate);
-    RecordProperty("wrongPercent", std::to_string(100.0 * wrong / pairs));
+    RecordProperty("wrongPercent", std::to_string(100.0 * wrong / wanted));
     std::printf("%s: %.3f %% wrong in the mean, %d of %d fits fell back to the plain map\n",
-                technique().c_str(), 100.0 * wrong / pairs, degenerate, pairs);
+                technique().c_str(), 100.0 * wrong / wanted, degenerate, wanted);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, RaysGLTest,
-                         testing::ValuesIn(shadow_fit::fits().begin(), shadow_fit::fits().end()),
-                         fitName);
+INSTANTIATE_TEST_SUITE_P(All, RaysGLTest, testing::ValuesIn(techniques()), techniqueName);
 
 }  // namespace
 }  // namespace gnomon::stress

@@ -67,9 +67,7 @@ TEST_P(ScaleGLTest, TinyAndHugeScenesAreTheSame) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ScaleGLTest,
-                         testing::ValuesIn(shadow_fit::fits().begin(), shadow_fit::fits().end()),
-                         fitName);
+INSTANTIATE_TEST_SUITE_P(All, ScaleGLTest, testing::ValuesIn(techniques()), techniqueName);
 
 }  // namespace
 }  // namespace gnomon::stress

@@ -1,6 +1,7 @@
 #include <gnomon/math/BoxTree.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -86,7 +87,9 @@ std::uint32_t BoxTree::buildNode(std::uint32_t first, std::uint32_t last, std::u
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::uint32_t middle = first + (last - first) / 2;
     const auto key = [&](std::uint32_t item) {
-        return boxes_[item].empty() ? 0.0 : boxes_[item].min[axis] + boxes_[item].max[axis];
+        const double twice = boxes_[item].min[axis] + boxes_[item].max[axis];
+        // Of a box from minus to plus infinity no number: an order must not see it.
+        return boxes_[item].empty() || std::isnan(twice) ? 0.0 : twice;
     };
     std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
                      [&](std::uint32_t a, std::uint32_t b) {

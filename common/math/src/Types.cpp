@@ -1,6 +1,7 @@
 #include <gnomon/math/Types.h>
 
 #include <cmath>
+#include <utility>
 
 namespace gnomon::math {
 
@@ -30,6 +31,35 @@ bool isFinite(const dmat4& matrix) noexcept {
         for (int row = 0; row < 4; ++row)
             if (!std::isfinite(matrix[column][row])) return false;
     return true;
+}
+
+dmat4 inverted(const dmat4& matrix) noexcept {
+    // Gauss and Jordan, on columns, with the largest pivot of each row. Unlike cofactors it neither
+    // overflows nor divides by a determinant that has underflowed to zero.
+    dmat4 left = matrix;
+    dmat4 right{1.0};
+    const dmat4 none{dvec4{std::numeric_limits<double>::quiet_NaN()},
+                     dvec4{std::numeric_limits<double>::quiet_NaN()},
+                     dvec4{std::numeric_limits<double>::quiet_NaN()},
+                     dvec4{std::numeric_limits<double>::quiet_NaN()}};
+    for (int i = 0; i < 4; ++i) {
+        int pivot = i;
+        for (int column = i + 1; column < 4; ++column)
+            if (std::abs(left[column][i]) > std::abs(left[pivot][i])) pivot = column;
+        if (!(std::abs(left[pivot][i]) > 0.0)) return none;
+        std::swap(left[i], left[pivot]);
+        std::swap(right[i], right[pivot]);
+        const double by = left[i][i];  // the pivot, not zero
+        left[i] /= by;
+        right[i] /= by;
+        for (int column = 0; column < 4; ++column) {
+            if (column == i) continue;
+            const double times = left[column][i];
+            left[column] -= left[i] * times;
+            right[column] -= right[i] * times;
+        }
+    }
+    return isFinite(right) ? right : none;
 }
 
 Box transformed(const Box& box, const dmat4& targetFromSource) noexcept {

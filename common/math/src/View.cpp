@@ -1,26 +1,61 @@
 #include <gnomon/math/View.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gnomon::math {
+namespace {
 
-dvec3 View::eyeWorld() const noexcept {
-    const dmat4 worldFromEye = glm::inverse(eyeFromWorld);
-    return dvec3{worldFromEye[3]};
+/// What is divided by: two sides that coincide are taken to be a little apart.
+double apart(double low, double high) noexcept { return high != low ? high - low : 1e-9; }
+
+}  // namespace
+
+dvec3 View::eyeWorld() const noexcept { return dvec3{inverted(eyeFromWorld)[3]}; }
+
+bool View::usable() const noexcept {
+    constexpr double most = 1e30;  // squares and cubes of it are doubles still
+    const auto within = [](const dmat4& matrix) {
+        for (int column = 0; column < 4; ++column)
+            for (int row = 0; row < 4; ++row)
+                if (!(std::abs(matrix[column][row]) <= most)) return false;
+        return true;
+    };
+    const dmat4 clip = clipFromWorld();
+    const dmat4 worldFromClip = inverted(clip);
+    const dvec4 last = glm::transpose(eyeFromWorld)[3];
+    if (last != dvec4{0.0, 0.0, 0.0, 1.0} || !within(clip) || !within(eyeFromWorld) ||
+        !within(worldFromClip) || !within(inverted(eyeFromWorld)))
+        return false;
+    // There and back, at a depth a thousand times the near plane's.
+    for (const double x : {-1.0, 1.0})
+        for (const double y : {-1.0, 1.0}) {
+            const dvec4 world = worldFromClip * dvec4{x, y, 1e-3, 1.0};
+            if (world.w == 0.0) return false;
+            const dvec4 again = clip * dvec4{dvec3{world} / world.w, 1.0};
+            if (!(again.w > 0.0) || !(std::abs(again.x - x * again.w) < 1e-3 * again.w) ||
+                !(std::abs(again.y - y * again.w) < 1e-3 * again.w))
+                return false;
+        }
+    return true;
 }
 
 dmat4 frustum(double left, double right, double bottom, double top, double near,
               double far) noexcept {
     // x and y: the rectangle at distance 1 becomes [-1, 1]. z: reversed, so that
     // z/w = near (far - d) / (d (far - near)) at distance d.
+    const double width = apart(left, right);
+    const double height = apart(bottom, top);
+    const double depth = apart(near, far);
     dmat4 clip{0.0};
-    clip[0][0] = 2.0 / (right - left);
-    clip[1][1] = 2.0 / (top - bottom);
-    clip[2][0] = (right + left) / (right - left);
-    clip[2][1] = (top + bottom) / (top - bottom);
-    clip[2][2] = near / (far - near);
+    clip[0][0] = 2.0 / width;
+    clip[1][1] = 2.0 / height;
+    clip[2][0] = (right + left) / width;
+    clip[2][1] = (top + bottom) / height;
+    clip[2][2] = near / depth;
     clip[2][3] = -1.0;
-    clip[3][2] = near * far / (far - near);
+    clip[3][2] = near * far / depth;
     return clip;
 }
 
@@ -30,7 +65,6 @@ dmat4 perspective(double fovy, double aspect, double near, double far) noexcept 
 }
 
 dmat4 orthographic(const dvec3& min, const dvec3& max) noexcept {
-    // A box without extent in an axis is widened, so no division is by zero.
     const auto extent = [](double low, double high) { return high > low ? high - low : 1e-9; };
     dmat4 clip{1.0};
     clip[0][0] = 2.0 / extent(min.x, max.x);
@@ -45,14 +79,15 @@ dmat4 orthographic(const dvec3& min, const dvec3& max) noexcept {
 dmat4 lookAt(const dvec3& eye, const dvec3& centre, const dvec3& up) noexcept {
     const dvec3 offset = centre - eye;
     const double length = glm::length(offset);
-    const dvec3 forward = length > 0.0 ? offset / length : dvec3{0.0, 0.0, -1.0};
+    const dvec3 forward =
+        length > 0.0 && std::isfinite(length) ? offset / length : dvec3{0.0, 0.0, -1.0};
     dvec3 side = glm::cross(forward, up);
     if (!(glm::dot(side, side) > 1e-18 * glm::dot(up, up)) || !(glm::dot(up, up) > 0.0)) {
         const dvec3 other =
             std::abs(forward.y) < 0.9 ? dvec3{0.0, 1.0, 0.0} : dvec3{0.0, 0.0, -1.0};
         side = glm::cross(forward, other);
     }
-    side = glm::normalize(side);
+    side = glm::normalize(side);  // not zero: forward is unit, and the other up not along it
     const dvec3 above = glm::cross(side, forward);
     dmat4 view{1.0};
     for (int i = 0; i < 3; ++i) {
@@ -78,11 +113,12 @@ View offAxis(const dvec3& eye, const ScreenCorners& screen, double near, double 
     const dvec3 upward = screen.upperLeft - screen.lowerLeft;
     const double width = glm::length(across);
     const double height = glm::length(upward);
-    const dvec3 right = across / width;  // validated configs have screens with area
-    const dvec3 up = upward / height;
+    // A screen without area, which only an application can make, has the axes of any other.
+    const dvec3 right = width > 0.0 ? across / width : dvec3{1.0, 0.0, 0.0};
+    const dvec3 up = height > 0.0 ? upward / height : dvec3{0.0, 1.0, 0.0};
     const dvec3 normal = glm::cross(right, up);  // toward the viewer
     const dvec3 toEye = eye - screen.lowerLeft;
-    const double distance = std::max(glm::dot(toEye, normal), 1e-3 * width);
+    const double distance = std::max({glm::dot(toEye, normal), 1e-3 * width, 1e-9});
     const double x = glm::dot(toEye, right);
     const double y = glm::dot(toEye, up);
 
@@ -103,14 +139,15 @@ View offAxis(const dvec3& eye, const ScreenCorners& screen, double near, double 
 }
 
 std::array<dvec3, 8> frustumCorners(const dmat4& clipFromWorld) noexcept {
-    const dmat4 worldFromClip = glm::inverse(clipFromWorld);
+    const dmat4 worldFromClip = inverted(clipFromWorld);
     std::array<dvec3, 8> corners;
     for (std::size_t i = 0; i < 8; ++i) {
         const std::size_t side = i % 4;
         const dvec4 clip{side == 1 || side == 2 ? 1.0 : -1.0, side >= 2 ? 1.0 : -1.0,
                          i < 4 ? 1.0 : 0.0, 1.0};
         const dvec4 world = worldFromClip * clip;
-        corners[i] = dvec3{world} / world.w;
+        corners[i] = world.w != 0.0 ? dvec3{world} / world.w
+                                    : dvec3{std::numeric_limits<double>::quiet_NaN()};
     }
     return corners;
 }

@@ -38,7 +38,7 @@ private:
     CameraView perspective(const PerspectiveCamera& camera) const {
         CameraView result;
         result.view.clipFromEye = math::perspective(camera.fovy, aspect_, camera.near, camera.far);
-        result.view.eyeFromWorld = glm::inverse(worldFromNode(scene_, camera.beacon));
+        result.view.eyeFromWorld = math::inverted(worldFromNode(scene_, camera.beacon));
         result.whole = result.view;
         result.group = Ref<field::FieldContainer>{camera};
         return result;
@@ -70,7 +70,9 @@ private:
         const Navigation* navigation = scene_.get(camera.navigation.get());
         const math::dmat4 worldFromRoom =
             navigation == nullptr ? math::dmat4{1.0} : math::toMatrix(navigation->worldFromRoom);
-        const double scale = std::cbrt(std::abs(glm::determinant(math::dmat3{worldFromRoom})));
+        const double volume = std::abs(glm::determinant(math::dmat3{worldFromRoom}));
+        // A room of no size shows nothing: its view cannot be looked back through.
+        const double scale = volume > 0.0 && std::isfinite(volume) ? std::cbrt(volume) : 1.0;
         const auto* lens =
             dynamic_cast<const PerspectiveCamera*>(scene_.get(camera.decoratee.get()));
         const double near = lens == nullptr ? 0.1 : lens->near.get();
@@ -90,7 +92,7 @@ private:
         grow[3][3] = 1.0;
         math::dmat4 shrink{1.0 / scale};
         shrink[3][3] = 1.0;
-        result.view.eyeFromWorld = grow * room.eyeFromWorld * glm::inverse(worldFromRoom);
+        result.view.eyeFromWorld = grow * room.eyeFromWorld * math::inverted(worldFromRoom);
         result.view.clipFromEye = room.clipFromEye * shrink;
         // shrink scales clip coordinates with w; bring w back to the distance in world metres.
         result.view.clipFromEye *= scale;

@@ -27,6 +27,7 @@ struct Found {
 class Search {
 public:
     Search(const Ground& ground, std::span<const Sample> samples) : hull_{ground.outline.hull} {
+        for (const dvec2& p : hull_) size_ = std::max({size_, std::abs(p.x), std::abs(p.y)});
         for (const Sample& sample : samples) {
             const dvec3 h = ground.plane.at(sample.world);
             if (h.z > 0.0) points_.push_back({dvec2{h} / h.z, sample.weight * h.z});
@@ -38,7 +39,7 @@ public:
         const dvec2 a{std::cos(angle), std::sin(angle)};
         const dvec2 b{a.y, -a.x};
         const Extent extent = extentAlong(hull_, a);
-        if (!(extent.length() > 0.0)) return {};
+        if (!(extent.length() > 1e-9 * size_)) return {};
         const double k = strength / extent.length();
         dmat3 warp{1.0};  // without a crop
         warp[0] = {b.x, a.x, k * a.x};
@@ -57,9 +58,11 @@ public:
         const auto sides = leastParallelogram(outline);
         if (!sides) return {};
         // Its corner and sides, back where the outline was: the columns of square-to-outline.
-        const dmat2 back = glm::inverse(*whitened);
+        const dmat2 back = glm::inverse(*whitened);  // its determinant a c is above zero
         const dmat2 half = back * dmat2{sides->first * 0.5, sides->second * 0.5};
         const dvec2 middle = back * sides->middle;
+        if (!(std::abs(cross(half[0], half[1])) > 0.0))
+            return {};  // flat, in what doubles can hold
         dmat3 outlineFromSquare{1.0};
         outlineFromSquare[0] = {half[0], 0.0};
         outlineFromSquare[1] = {half[1], 0.0};
@@ -87,7 +90,8 @@ private:
             const dmat2 moved{(dvec2{warp[0]} - at * warp[0].z) / q.z,
                               (dvec2{warp[1]} - at * warp[1].z) / q.z};
             const double area = glm::determinant(moved);
-            if (std::abs(area) > 0.0) steps.push_back({glm::inverse(moved), point.weight});
+            if (std::abs(area) > 0.0 && std::isfinite(area))
+                steps.push_back({glm::inverse(moved), point.weight});
         }
         return steps;
     }
@@ -100,16 +104,19 @@ private:
         for (const Step& step : steps) {
             const dvec2 u{step.onPlane[0][0], step.onPlane[1][0]};  // rows
             const dvec2 v{step.onPlane[0][1], step.onPlane[1][1]};
-            const double weight = step.weight / std::sqrt(glm::dot(u, u) + glm::dot(v, v));
+            const double length = std::sqrt(glm::dot(u, u) + glm::dot(v, v));
+            if (!(length > 0.0)) continue;  // underflown
+            const double weight = step.weight / length;
             xx += weight * (u.x * u.x + v.x * v.x);
             xy += weight * (u.x * u.y + v.x * v.y);
             yy += weight * (u.y * u.y + v.y * v.y);
         }
         // Cholesky: |L^T p|^2 = p^T (L L^T) p.
         const double a = std::sqrt(xx);
+        if (!(a > 0.0)) return {};
         const double b = xy / a;
-        const double c = std::sqrt(yy - b * b);
-        if (!(a > 0.0) || !(c > 0.0) || !std::isfinite(a * c)) return {};
+        const double c = std::sqrt(std::max(yy - b * b, 0.0));
+        if (!(a * c > 0.0) || !std::isfinite(a * c)) return {};
         return dmat2{dvec2{a, 0.0}, dvec2{b, c}};
     }
 
@@ -145,7 +152,7 @@ private:
                 const dvec2 nj{-directions[j].y, directions[j].x};
                 const double ci = 0.5 * (across[i].low + across[i].high);
                 const double cj = 0.5 * (across[j].low + across[j].high);
-                const double det = cross(ni, nj);
+                const double det = cross(ni, nj);  // as the sine, above a tenth in size
                 best = Sides{.first = directions[i] * (across[j].length() / sine),
                              .second = directions[j] * (across[i].length() / sine),
                              .middle = dvec2{ci * nj.y - cj * ni.y, cj * ni.x - ci * nj.x} / det};
@@ -156,12 +163,13 @@ private:
 
     std::span<const dvec2> hull_;
     std::vector<Point> points_;
+    double size_ = narrowestMap;  ///< what the outline's numbers are like
 };
 
 }  // namespace
 
-dmat3 bestWarp(const Ground& ground, const Warp& guess, int mapSize,
-               std::span<const Sample> samples) {
+std::optional<dmat3> bestWarp(const Ground& ground, const Warp& guess, int mapSize,
+                              std::span<const Sample> samples) {
     const auto fallback = [&] { return warpedMap(ground.outline.hull, guess, mapSize); };
     if (ground.outline.hull.size() < 3 || samples.empty()) return fallback();
     const Search search{ground, samples};
@@ -186,7 +194,7 @@ dmat3 bestWarp(const Ground& ground, const Warp& guess, int mapSize,
     }
     if (!std::isfinite(best.error)) return fallback();
     const auto cropped = croppedMap(ground.outline.hull, best.map, mapSize);
-    return cropped ? *cropped : fallback();
+    return cropped ? cropped : fallback();
 }
 
 }  // namespace gnomon::shadow_fit

@@ -12,7 +12,9 @@ namespace gnomon::shadow_fit {
 /// Sides of a texel add up over the picture to a norm of the parallelogram's sides. In the space
 /// where that norm is a length the best one is that of the least perimeter around the outline, and
 /// has a side on an edge of it.
-math::dmat3 bestWarp(const Ground& ground, const Warp& guess, int mapSize,
-                     std::span<const Sample> samples);
+///
+/// Nothing where not even the guess is a map.
+std::optional<math::dmat3> bestWarp(const Ground& ground, const Warp& guess, int mapSize,
+                                    std::span<const Sample> samples);
 
 }  // namespace gnomon::shadow_fit

@@ -67,7 +67,9 @@ LightPlane::Depth LightPlane::depthOf(std::span<const dvec3> receivers,
     }
     if (!casters.empty())
         for (int i = 0; i < 8; ++i) high = std::max(high, glm::dot(casters.corner(i), toward_));
-    const double slack = 1e-3 * (high - low) + 1e-6;
+    // Never nothing, not even of a point so far away that a micrometre is lost on it.
+    const double slack =
+        1e-3 * (high - low) + 1e-6 + 1e-12 * std::max(std::abs(low), std::abs(high));
     return {.nearest = -(high + slack), .farthest = -(low - slack)};
 }
 

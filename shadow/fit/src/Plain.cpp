@@ -39,7 +39,9 @@ std::optional<Viewer> viewerOf(const FitInput& input) {
         viewer.nearest = std::min(viewer.nearest, viewer.depthOf(p));
         viewer.farthest = std::max(viewer.farthest, viewer.depthOf(p));
     }
-    if (!(viewer.nearest > 0.0) || !std::isfinite(viewer.farthest)) return {};
+    // Nearer than what rounding does to the farthest, depths say nothing.
+    if (!(viewer.nearest > 1e-15 * viewer.farthest) || !std::isfinite(viewer.farthest)) return {};
+    if (!(viewer.nearest > narrowestMap)) return {};
     return viewer;
 }
 

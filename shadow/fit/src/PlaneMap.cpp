@@ -85,8 +85,9 @@ std::optional<dmat3> croppedMap(std::span<const dvec2> hull, const dmat3& mapFro
         high = glm::max(high, dvec2{h} / h.z);
     }
     // A millionth of what the numbers are like: narrower, and rounding fills the map.
-    const double size = std::max({std::abs(low.x), std::abs(low.y), std::abs(high.x),
-                                  std::abs(high.y), high.x - low.x, high.y - low.y, 1e-300});
+    const double size =
+        std::max({std::abs(low.x), std::abs(low.y), std::abs(high.x), std::abs(high.y),
+                  high.x - low.x, high.y - low.y, 1e6 * narrowestMap});
     const Crop x = cropOf(low.x, high.x, 1e-6 * size, mapSize);
     const Crop y = cropOf(low.y, high.y, 1e-6 * size, mapSize);
     const dvec3 w = row(scaled, 2);
@@ -102,22 +103,22 @@ std::optional<dmat3> croppedMap(std::span<const dvec2> hull, const dmat3& mapFro
 }
 
 dmat3 uniformMap(std::span<const dvec2> hull, int mapSize) {
-    return warpedMap(hull, {.along = smallestRectangleSide(hull)}, mapSize);
+    if (const auto map = warpedMap(hull, {.along = smallestRectangleSide(hull)}, mapSize))
+        return *map;
+    return dmat3{1.0};  // of no point at all
 }
 
-dmat3 warpedMap(std::span<const dvec2> hull, const Warp& warp, int mapSize) {
+std::optional<dmat3> warpedMap(std::span<const dvec2> hull, const Warp& warp, int mapSize) {
     const dvec2& a = warp.along;
     const dvec2 b{a.y, -a.x};
     const Extent extent = extentAlong(hull, a);
-    const double length = std::max(extent.length(), 1e-9 * largestSize(hull) + 1e-300);
+    const double length = std::max(extent.length(), 1e-9 * largestSize(hull) + narrowestMap);
     const double k = warp.strength / length;  // w = 1 + k (along - low)
     dmat3 m{1.0};
     m[0] = {b.x, a.x, k * a.x};
     m[1] = {b.y, a.y, k * a.y};
     m[2] = {-warp.beside, -extent.low, 1.0 - k * extent.low};
-    if (const auto cropped = croppedMap(hull, m, mapSize)) return *cropped;
-    // Only where the numbers themselves are beyond doubles; a map that shows nothing of it.
-    return dmat3{1.0};
+    return croppedMap(hull, m, mapSize);
 }
 
 double expectedError(const LightPlane& plane, const dmat3& m, int mapSize,

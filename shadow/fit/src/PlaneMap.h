@@ -20,7 +20,9 @@ struct Warp {
     double strength = 0.0;
     double beside = 0.0;
 };
-math::dmat3 warpedMap(std::span<const math::dvec2> hull, const Warp& warp, int mapSize);
+/// Nothing where the numbers are beyond doubles.
+std::optional<math::dmat3> warpedMap(std::span<const math::dvec2> hull, const Warp& warp,
+                                     int mapSize);
 
 /// Any projective map, cropped to the outline and scaled so that w is 1 at the least.
 /// @pre w > 0 on the whole outline; else nothing.

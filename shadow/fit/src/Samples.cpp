@@ -35,17 +35,19 @@ std::vector<Sample> samplePicture(std::span<const math::View> views, const Boxes
     std::vector<Sample> samples;
     std::vector<Passage> passages;
     for (const math::View& view : views) {
-        if (!math::isFinite(view.clipFromWorld())) continue;
-        const math::dmat4 worldFromClip = glm::inverse(view.clipFromWorld());
+        if (!view.usable()) continue;
+        const math::dmat4 worldFromClip = math::inverted(view.clipFromWorld());
         const auto unproject = [&](double x, double y, double z) {
             const math::dvec4 p = worldFromClip * math::dvec4{x, y, z, 1.0};
-            return dvec3{p} / p.w;
+            // Infinitely far away, no place: nothing is sampled there.
+            return p.w != 0.0 ? dvec3{p} / p.w : dvec3{std::numeric_limits<double>::quiet_NaN()};
         };
         for (int i = 0; i < perSide * perSide; ++i) {
             const double x = (i % perSide + 0.5) / perSide * 2.0 - 1.0;
             const double y = (i / perSide + 0.5) / perSide * 2.0 - 1.0;
             const dvec3 from = unproject(x, y, 1.0);
             const dvec3 direction = unproject(x, y, 0.0) - from;
+            if (!isPlace(from) || !isPlace(direction)) continue;
             passages.clear();
             boxes.tree.along(from, direction, [&](std::uint32_t item, double entry, double exit) {
                 // A solid box around the eye shows nothing.

@@ -48,6 +48,7 @@ struct ShadowFitter::Plan {
     std::vector<Sample> samples = {};  ///< weighed anew for each light
     math::dvec3 origin{0.0};
     int mapSize = 0, pageSize = 0;
+    int cascades = 0;
 };
 
 ShadowFitter::ShadowFitter(std::function<void(std::string)> warn) : warn_{std::move(warn)} {}
@@ -107,9 +108,9 @@ void ShadowFitter::update(field::Aspect& session, const field::Applied& applied)
         const auto* viewport = session.get(scene::Ref<scene::ShadowViewport>{group.viewport});
         const bool previous = viewport->depthRange == scene::DepthUse::previous;
         previous_ = previous_ || previous;
-        const bool exact =
-            viewport->depthRange == scene::DepthUse::exact &&
-            viewport->technique.get() != "none" && viewport->technique.get() != "ray";
+        const bool exact = viewport->depthRange == scene::DepthUse::exact &&
+                           viewport->technique.get() != "none" &&
+                           viewport->technique.get() != "ray";
         if (exact && keep(group)) {
             waiting_.push_back(std::move(group));
             continue;
@@ -189,7 +190,9 @@ void ShadowFitter::collectGroups(const field::Aspect& session, std::vector<Group
                 group = groups.end() - 1;
             }
             const auto whole = [](int part, double share) {
-                return static_cast<int>(std::lround(std::min(part / share, 65536.0)));
+                // Tiles of tiles may have a share of nothing.
+                return share > 0.0 ? static_cast<int>(std::lround(std::min(part / share, 65536.0)))
+                                   : part;
             };
             group->pixels =
                 glm::max(group->pixels, glm::ivec2{whole(pixels.width, camera->part.width),
@@ -200,7 +203,7 @@ void ShadowFitter::collectGroups(const field::Aspect& session, std::vector<Group
                     return v.clipFromEye == camera->whole.clipFromEye &&
                            v.eyeFromWorld == camera->whole.eyeFromWorld;
                 });
-            if (!known) group->views.push_back(camera->whole);
+            if (!known && camera->whole.usable()) group->views.push_back(camera->whole);
         }
     }
 }
@@ -225,22 +228,34 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group,
     math::dvec3 eye{0.0};
     for (const math::View& view : group.views)
         eye += view.eyeWorld() / static_cast<double>(group.views.size());
+    // Near what is seen, too: from far away all of it would be floats that differ in the last bits.
+    const math::Box bounds = plan.seen.flat.bounds();
+    if (!bounds.empty()) eye = glm::clamp(eye, bounds.min, bounds.max);
     for (int i = 0; i < 3; ++i) plan.origin[i] = std::round(eye[i] / originStep) * originStep;
+    const auto& wanted = viewport.lightNodes;
+    const auto shadows = [&](const scene::FlatScene::LightUse& use) {
+        return use.light->on && use.light->castsShadow &&
+               (wanted.empty() || std::any_of(wanted.begin(), wanted.end(), [&](const auto& ref) {
+                    return ref.id == use.node->id();
+                }));
+    };
+    const auto lights = plan.seen.flat.lights();
+    const auto count = static_cast<int>(std::count_if(lights.begin(), lights.end(), shadows));
     const int asked =
         viewport.mapSize > 0 ? viewport.mapSize.get() : scene::mapSizeFor(group.pixels);
-    const int mapSize = std::clamp(asked, 16, 16384);
+    int mapSize = std::clamp(asked, 16, 16384);
+    // Many large maps: all are coarser, rather than some lights without.
+    const auto pagesOf = [](int size) { return (size + pageTexels - 1) / pageTexels; };
+    while (mapSize > pageTexels && pagesOf(mapSize) * pagesOf(mapSize) * count > mostPages)
+        mapSize /= 2;
+    plan.cascades =
+        std::clamp(viewport.cascades.get(), 2, std::max(2, mostMaps / std::max(count, 1)));
     // Whole pages: a map that is not a multiple is raised to one.
     plan.pageSize = std::min(plan.filter.pageTexels, mapSize);
     plan.mapSize = (mapSize + plan.pageSize - 1) / plan.pageSize * plan.pageSize;
 
-    const auto& wanted = viewport.lightNodes;
-    for (const auto& use : plan.seen.flat.lights()) {
-        if (!use.light->on || !use.light->castsShadow) continue;
-        if (wanted.empty() || std::any_of(wanted.begin(), wanted.end(), [&](const auto& ref) {
-                return ref.id == use.node->id();
-            }))
-            fit(session, group, use, plan);
-    }
+    for (const auto& use : lights)
+        if (shadows(use)) fit(session, group, use, plan);
 }
 
 void ShadowFitter::fit(field::Aspect& session, const Group& group,
@@ -254,8 +269,10 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group,
     }
     const Boxes boxes = plan.seen.clusters.boxes();
     LightShape light = lightShape(use);
+    const bool placed = usableLight(light).has_value();
     const auto receive = [&] {
         receivers_.clear();
+        if (!placed) return;
         for (const math::View& view : group.views)
             receivers_.add(view, &light, boxes.tree, plan.depth);
     };
@@ -271,37 +288,31 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group,
     }
     const double softness =
         plan.viewport.softness > 0.0F ? plan.viewport.softness.get() : softnessOf(light);
-    const double reach = lookupReach(plan.filter.spread, light, softness,
-                                     0.5 * plan.viewport.kernelWidth / plan.mapSize,
-                                     receivers_.points(), plan.seen.flat.bounds());
+    const double reach = !placed ? 0.0
+                                 : lookupReach(plan.filter, light, softness,
+                                               0.5 * plan.viewport.kernelWidth / plan.mapSize,
+                                               receivers_.points(), plan.seen.flat.bounds());
     if (plan.info.shadowedOnly)
         receivers_.dropUnshadowed(light, boxes.tree, reach);
     else if (!receivers_.mayBeShadowed(light, boxes.tree, reach))
         receivers_.clear();
-    weigh(plan.samples, light, boxes);
-    Fitted fitted = plan.info.fit(
-        {.light = light,
-         .views = group.views,
-         .receivers = receivers_,
-         .samples = plan.samples,
-         .scene = plan.seen.flat.bounds(),
-         .mapSize = plan.mapSize,
-         .settings = {.range = plan.viewport.range, .cascades = plan.viewport.cascades},
-         .reach = reach});
+    if (placed) weigh(plan.samples, light, boxes);
+    const Fitted made =
+        fitted(plan.info, {.light = light,
+                           .views = group.views,
+                           .receivers = receivers_,
+                           .samples = plan.samples,
+                           .scene = plan.seen.flat.bounds(),
+                           .mapSize = plan.mapSize,
+                           .settings = {.range = plan.viewport.range, .cascades = plan.cascades},
+                           .reach = reach});
     std::vector<math::dmat4> maps;
-    for (const FittedMap& map : fitted.maps) {
-        if (!math::isFinite(map.clipFromWorld)) {
-            fitted.degenerate = true;
-            maps.clear();
-            break;
-        }
-        maps.push_back(map.clipFromWorld);
-    }
+    for (const FittedMap& map : made.maps) maps.push_back(map.clipFromWorld);
     auto e = edit(*state);
     e->light = *use.node;
     e->group = field::WeakRef<field::FieldContainer>{group.id};
     e->filter = std::string{plan.filter.name};
-    e->mapSize = fitted.mapSize > 0 ? fitted.mapSize : plan.mapSize;
+    e->mapSize = made.mapSize > 0 ? made.mapSize : plan.mapSize;
     e->pageSize = std::min(plan.pageSize, e->mapSize.get());
     e->origin = plan.origin;
     e->source = light.kind == LightKind::directional ? math::dvec4{-light.direction, 0.0}
@@ -311,7 +322,7 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group,
     e->reach = static_cast<float>(reach);
     e->kernelWidth = plan.viewport.kernelWidth;
     e->kernelSamples = plan.viewport.kernelSamples;
-    e->degenerate = fitted.degenerate;
+    e->degenerate = made.degenerate || !placed;
     e->clipFromWorld.assign(std::move(maps));
 }
 

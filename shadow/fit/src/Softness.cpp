@@ -15,8 +15,8 @@ constexpr std::array<FilterUse, 6> uses{{{"hard", Spread::none},
                                          {"pcf", Spread::fixed},
                                          {"ppcf", Spread::penumbra},
                                          {"square", Spread::texels},
-                                         {"vsm", Spread::fixed, largePage},
-                                         {"evsm", Spread::fixed, largePage}}};
+                                         {"vsm", Spread::fixed, largePage, 3.0},
+                                         {"evsm", Spread::fixed, largePage, 3.0}}};
 
 /// A lookup that goes further than this many tangents around would see half the world.
 constexpr double mostTangents = 2.0;
@@ -43,9 +43,11 @@ double softnessOf(const LightShape& light) noexcept {
                     light.kind == LightKind::directional ? extent * metresAway : extent * 0.5);
 }
 
-double lookupReach(Spread spread, const LightShape& light, double softness, double share,
+double lookupReach(const FilterUse& filter, const LightShape& light, double softness, double share,
                    std::span<const math::dvec3> receivers, const math::Box& casters) {
+    const Spread spread = filter.spread;
     if (spread == Spread::none || receivers.empty()) return 0.0;
+    softness *= filter.tails;
     const LightPlane plane{light};
     if (spread == Spread::texels) {
         const auto hull = outlineOf(plane, light, receivers, 0.0).hull;

@@ -36,7 +36,9 @@ float filteredShadow(int first, ShadowPoint point) {
 }
 )glsl",
             .shared = momentsGlsl(),
-            .pyramid = &moments};
+            .pyramid = &moments,
+            .leastTexels = 4.0F,
+            .bleeds = true};
 }
 
 }  // namespace gnomon::shadow

@@ -27,6 +27,7 @@ using math::dvec3;
 constexpr int slices = 32;
 constexpr int angles = 12;           ///< steps of a quarter turn
 constexpr double sizesAnOctave = 8;  ///< steps of a map's sides
+constexpr double depthSteps = 16;    ///< of the depths' range, at the least half as many
 
 /// A thin slice of the view's depth.
 struct Slice {
@@ -111,8 +112,23 @@ struct Rectangle {
 /// A side of a map that holds @p length: the next of the steps, with room for a texel of snapping
 /// and two of what a lookup reaches beyond the receivers at each end.
 double steppedSide(double length, double least, int mapSize) {
-    const double needed = std::max(length, least) * mapSize / std::max(mapSize - 6, 1);
+    const double needed = std::max(length, least) * mapSize / std::max(mapSize - 6, 1);  // > 0
     return std::exp2(std::ceil(std::log2(needed) * sizesAnOctave - 1e-9) / sizesAnOctave);
+}
+
+/// Depths in steps, outward: they would else move with whatever is cut by the view's sides, and
+/// every texel's depth with them.
+LightPlane::Depth stepped(const LightPlane::Depth& depth, bool parallel) {
+    if (!parallel) {
+        // A spot's begin at a share of where they end.
+        const double step =
+            std::exp2(std::ceil(std::log2(depth.farthest) * sizesAnOctave - 1e-9) / sizesAnOctave);
+        return {.nearest = step * (depth.nearest / depth.farthest), .farthest = step};
+    }
+    const double range = depth.farthest - depth.nearest;  // above zero, as depthOf() leaves it
+    const double step = std::exp2(std::ceil(std::log2(range))) / depthSteps;
+    return {.nearest = std::floor(depth.nearest / step) * step,
+            .farthest = std::ceil(depth.farthest / step) * step};
 }
 
 /// Splits of the slices into maps: which slice each map begins with.
@@ -193,7 +209,8 @@ int sizeOf(const FitInput& input) {
 Fitted fit(const FitInput& input) {
     if (input.receivers.empty()) return {};
     const int mapSize = sizeOf(input);
-    const Ground ground{input};
+    Ground ground{input};
+    ground.depth = stepped(ground.depth, ground.plane.parallel());
     // All lights' maps of a view must be of one size, the plain one too.
     const auto plain = [&] {
         return Fitted{.maps = {{.clipFromWorld = ground.clipFromWorld(
@@ -207,7 +224,7 @@ Fitted fit(const FitInput& input) {
     double size = 0.0;
     for (const dvec2& p : ground.outline.hull)
         size = std::max({size, std::abs(p.x), std::abs(p.y)});
-    const double least = 1e-6 * size + 1e-300;
+    const double least = 1e-6 * size + narrowestMap;
     const auto all = slicesOf(input, ground.plane, *viewer);
     const Planner planner{all, maps, mapSize, least};
     Plan best;
@@ -241,8 +258,11 @@ Fitted fit(const FitInput& input) {
 }  // namespace
 
 FitInfo describe_csm() {
-    return {
-        .name = "csm", .source = "Engel 2006; Lauritzen et al. 2011", .fit = fit, .sampled = true};
+    return {.name = "csm",
+            .source = "Engel 2006; Lauritzen et al. 2011",
+            .fit = fit,
+            .sampled = true,
+            .stable = true};
 }
 
 }  // namespace gnomon::shadow_fit

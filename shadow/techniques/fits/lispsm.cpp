@@ -28,18 +28,22 @@ Fitted fit(const FitInput& input) {
     for (const dvec3& p : input.receivers.points())
         middle += p / static_cast<double>(input.receivers.points().size());
     const dvec2 shift = ground.plane.moved(middle, viewer->forward);
-    if (!(glm::length(shift) > 0.0)) return ground.plain(true);
+    if (!(glm::length(shift) > 0.0) || !std::isfinite(glm::length(shift)))
+        return ground.plain(true);
     const dvec2 along = glm::normalize(shift);
     // n = d / (sqrt(z1 / z0) - 1) for an extent d of the outline, that is seen from z0 to z1.
-    const double strength = std::sqrt(viewer->farthest / viewer->nearest) - 1.0;
+    // The root less 1, without cancellation where both depths are about the same.
+    const double root = std::sqrt(viewer->farthest / viewer->nearest);
+    const double strength = (viewer->farthest - viewer->nearest) / viewer->nearest / (root + 1.0);
     const auto warped =
         bestWarp(ground, {.along = along, .strength = strength}, input.mapSize, input.samples);
+    if (!warped) return ground.plain(true);
     const auto expected = [&](const math::dmat3& map) {
         return expectedError(ground.plane, map, input.mapSize, input.samples);
     };
-    if (!input.samples.empty() && !(expected(warped) < expected(ground.uniform)))
+    if (!input.samples.empty() && !(expected(*warped) < expected(ground.uniform)))
         return ground.plain(true);
-    return {.maps = {{.clipFromWorld = ground.clipFromWorld(warped)}}};
+    return {.maps = {{.clipFromWorld = ground.clipFromWorld(*warped)}}};
 }
 
 }  // namespace

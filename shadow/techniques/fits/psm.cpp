@@ -102,8 +102,9 @@ Fitted fit(const FitInput& input) {
     const auto viewer = viewerOf(input);
     if (!viewer || ground.outline.atLight) return ground.plain(true);
     const double range = std::max(viewer->farthest - viewer->nearest, 1e-6 * viewer->farthest);
-    for (double shift = 0.0;
-         shift<64.0 * range; shift = shift> 0.0 ? shift * 2.0 : 0.03125 * range) {
+    // Not at all, then from a 32nd of the range to 32 times it.
+    for (int step = 0; step < 12; ++step) {
+        const double shift = step == 0 ? 0.0 : std::ldexp(range, step - 6);
         const auto map = mapAt(input, ground, *viewer, shift);
         if (!map) continue;
         if (const auto cropped = croppedMap(ground.outline.hull, *map, input.mapSize))

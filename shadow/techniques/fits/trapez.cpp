@@ -37,7 +37,7 @@ bool insideFarPlane(const FitInput& input, const LightPlane& plane, const Viewer
             // As far as anything is seen.
             const dvec3 way = all[i] - viewer.eye;
             const double depth = glm::dot(way, viewer.forward);
-            if (!(depth > 0.0)) return true;
+            if (!(depth > 0.0)) return true;  // nor where the far plane is infinitely far away
             const dvec3 h = plane.at(viewer.eye + way * (viewer.farthest / depth));
             if (!(h.z > 0.0)) return true;
             corners.push_back(dvec2{h} / h.z);
@@ -80,7 +80,9 @@ Fitted fit(const FitInput& input) {
     const auto& hull = ground.outline.hull;
     const Extent extent = extentAlong(hull, along);
     const double lambda = extent.length();
-    if (!(lambda > 0.0)) return ground.plain(true);
+    // So narrow, or beyond doubles: no trapezoid. lambda divides below, as does what is never less
+    // than a tenth of it.
+    if (!(lambda > narrowestMap) || !std::isfinite(lambda)) return ground.plain(true);
     const double delta =
         std::clamp(glm::dot(*focus, along) - extent.low, 0.05 * lambda, 0.75 * lambda);
     double eta = lambda * delta * (1.0 + focusLine) / (lambda - 2.0 * delta - lambda * focusLine);
@@ -93,10 +95,11 @@ Fitted fit(const FitInput& input) {
     const auto expected = [&](const math::dmat3& map) {
         return expectedError(ground.plane, map, input.mapSize, input.samples);
     };
+    if (!trapezoid) return ground.plain(true);
     if (insideFarPlane(input, ground.plane, *viewer) &&
-        (input.samples.empty() || !(expected(trapezoid) < expected(ground.uniform))))
+        (input.samples.empty() || !(expected(*trapezoid) < expected(ground.uniform))))
         return ground.plain(true);
-    return {.maps = {{.clipFromWorld = ground.clipFromWorld(trapezoid)}}};
+    return {.maps = {{.clipFromWorld = ground.clipFromWorld(*trapezoid)}}};
 }
 
 }  // namespace

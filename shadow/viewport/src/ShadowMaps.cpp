@@ -129,6 +129,7 @@ struct ShadowMaps::Frame {
     const View& view;
     CasterSource& casters;
     Pool& pool;
+    double leastTexels = 1.0;
     ShadowStatistics& done;
     SeenInMap seen = {};
     math::dmat4 firstFromWorld{1.0};  ///< of the light's first map, to its texels
@@ -202,7 +203,8 @@ void ShadowMaps::invalidate(std::span<const math::Box> moved) {
 void ShadowMaps::drawPage(Page& page, Frame& frame, const math::dmat4& decorate,
                           const math::dmat4& clipFromWorld, const scene::ShadowState& state) {
     const auto sides = math::frustumPlanes(decorate * clipFromWorld);
-    page.volume.enclose(clipFromWorld, std::span{sides}.first(4), frame.seen, 4.0 / state.mapSize);
+    page.volume.enclose(clipFromWorld, std::span{sides}.first(4), frame.seen,
+                        2.0 * (frame.leastTexels + 1.0) / state.mapSize);
     if (!frame.drawing) {
         gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
         gl_.Viewport(0, 0, frame.pool.side(), frame.pool.side());
@@ -313,7 +315,12 @@ ShadowStatistics ShadowMaps::prepare(std::span<const scene::ShadowState* const> 
         bound_ = &pagePool;
         ranges_[state->light->id] = {.first = static_cast<std::uint32_t>(blocks_.size()),
                                      .count = static_cast<std::uint32_t>(maps)};
-        Frame frame{.view = view, .casters = casters, .pool = pagePool, .done = done};
+        Frame frame{
+            .view = view,
+            .casters = casters,
+            .pool = pagePool,
+            .leastTexels = filter == nullptr ? 1.0 : static_cast<double>(filter->leastTexels),
+            .done = done};
         for (std::uint32_t map = 0; map < maps; ++map) prepareMap(*state, map, frame);
         if (frame.drawing) {
             gl_.Disable(GL_DEPTH_CLAMP);

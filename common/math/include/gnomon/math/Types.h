@@ -31,6 +31,8 @@ Affine toAffine(const dmat4& matrix) noexcept;
 Affine operator*(const Affine& a, const Affine& b) noexcept;
 bool isFinite(const dvec3& point) noexcept;
 bool isFinite(const dmat4& matrix) noexcept;
+/// The inverse; where there is none that doubles can hold, not a number in every entry.
+dmat4 inverted(const dmat4& matrix) noexcept;
 
 /// An axis-aligned box; empty when min > max in any axis, as a new one is.
 struct Box {

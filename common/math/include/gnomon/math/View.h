@@ -25,20 +25,26 @@ struct View {
     dmat4 clipFromWorld() const noexcept { return clipFromEye * eyeFromWorld; }
     /// The eye's position; of a parallel projection, the origin of its eye space.
     dvec3 eyeWorld() const noexcept;
+    /// Eye space is an affine map of the world; it can be looked back through to a thousandth of
+    /// the picture, and no number either way is beyond 1e30: what a view must be to see anything.
+    bool usable() const noexcept;
 };
 
 /// Symmetric frustum. @p fovy vertical, radians. 0 < near < far, metres.
 dmat4 perspective(double fovy, double aspect, double near, double far) noexcept;
-/// Frustum through a rectangle at distance 1 in front of the eye.
+/// Frustum through a rectangle at distance 1 in front of the eye. Sides that coincide are taken to
+/// be a billionth apart.
 dmat4 frustum(double left, double right, double bottom, double top, double near,
               double far) noexcept;
-/// Parallel projection of the box [min, max] in eye space (z negative in front).
+/// Parallel projection of the box [min, max] in eye space (z negative in front). A box without
+/// extent in an axis is widened.
 dmat4 orthographic(const dvec3& min, const dvec3& max) noexcept;
 /// eyeFromWorld. Where up is parallel to the view direction another up is chosen.
 dmat4 lookAt(const dvec3& eye, const dvec3& centre, const dvec3& up) noexcept;
 
 /// What the tile camera decorator does: clip space of the part @p tile of a whole picture, from
 /// clip space of the whole. Exact in the projection matrix: one scale and one offset an axis.
+/// @pre the tile has area
 /// Source: OpenSG's TileCameraDecorator.
 dmat4 tileFromWhole(const Rect& tile) noexcept;
 
@@ -56,7 +62,7 @@ struct ScreenCorners {
 View offAxis(const dvec3& eye, const ScreenCorners& screen, double near, double far) noexcept;
 
 /// Corners of the view volume in world space: near then far, each lower left, lower right, upper
-/// right, upper left.
+/// right, upper left. One that is infinitely far away, or of no volume at all, is not a number.
 std::array<dvec3, 8> frustumCorners(const dmat4& clipFromWorld) noexcept;
 /// Inner sides of the view volume: left, right, bottom, top, near, far.
 std::array<Plane, 6> frustumPlanes(const dmat4& clipFromWorld) noexcept;

@@ -4,6 +4,7 @@
 #include <gnomon/math/View.h>
 #include <gnomon/shadow_fit/Receivers.h>
 
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +17,11 @@ namespace gnomon::shadow_fit {
 /// Texels a side of a page: what a shadow map is drawn, kept and skipped by. A map is as many whole
 /// pages as it needs, or a smaller single one.
 inline constexpr int pageTexels = 1024;
+
+/// Of all lights of a fit group: pages, the layers an array texture of OpenGL 4.5 has at the least,
+/// and maps, what a lookup's uniform block holds.
+inline constexpr int mostPages = 2048;
+inline constexpr int mostMaps = 128;
 
 enum class LightKind { directional, spot, point };
 
@@ -36,6 +42,19 @@ inline constexpr double widestOfPoint = 1.3089969389957472;
 /// A point light as the spot that sees what is seen: the narrowest cone around it, or, where that
 /// is wider than widestOfPoint, one toward its middle. What is outside it is lit.
 LightShape spotThatSees(const LightShape& point, std::span<const math::dvec3> seen);
+
+/// Metres from the origin beyond which nothing is shadowed, and the least a map is wide: what
+/// floats on the GPU can hold, squares and cubes of it doubles here.
+inline constexpr double farthestPlace = 1e30;
+inline constexpr double narrowestMap = 1e-30;
+/// Neither farther away than that, nor no number.
+inline bool isPlace(const math::dvec3& p) noexcept {
+    return std::abs(p.x) <= farthestPlace && std::abs(p.y) <= farthestPlace &&
+           std::abs(p.z) <= farthestPlace;
+}
+
+/// The light with a unit direction and angles in range; nothing where it has no place or direction.
+std::optional<LightShape> usableLight(const LightShape& light) noexcept;
 
 /// What an application can set of the fits. Each fit reads what concerns it.
 struct FitSettings {
@@ -73,7 +92,7 @@ struct Fitted {
     bool degenerate = false;           ///< the plain fit was used instead
 };
 
-/// A way to choose light frusta: a pure function.
+/// A way to choose light frusta: a pure function. Its input is as fitted() leaves it.
 struct FitInfo {
     std::string_view name = {};    ///< the word in configs and on the command line
     std::string_view source = {};  ///< authors, title, year
@@ -82,10 +101,19 @@ struct FitInfo {
     /// casts; else they stay where they are while things move in them.
     bool shadowedOnly = false;
     bool sampled = false;  ///< reads the samples; else there are none
+    /// While the view moves a little, its maps' texels stay where they are in the world, until a
+    /// size or a split takes a step.
+    bool stable = false;
 };
 
 /// Every fit built in, sorted by name.
 std::span<const FitInfo> fits();
+
+/// What a fit makes of any input. Fits are called through this alone: views, samples, casters and
+/// settings that are not finite are left out, and what a fit makes is looked at; where it is not
+/// finite as the floats of the GPU, the plain fit is used, and where that is not either, or the
+/// light has no place, there is no map. Both are marked as degenerate.
+Fitted fitted(const FitInfo& info, const FitInput& input);
 
 /// `FIT[+FILTER]` taken apart. A filter alone means std+filter; "none" and "ray" need neither.
 struct TechniqueName {

@@ -5,6 +5,7 @@
 #include <gnomon/math/View.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -60,12 +61,16 @@ private:
         int flat = -1;                       ///< the axis in which it has no extent
     };
     void addPiece(std::span<const math::dvec3> points, int flat);
+    std::span<const math::dvec3> cutFrom(const std::array<math::dvec3, 8>& corners, double size,
+                                         math::Box box, int flat,
+                                         std::span<const math::Plane> planes);
     /// Of points that are known to differ and to be finite.
     void addWhole(std::span<const math::dvec3> points, int flat);
 
     std::vector<math::dvec3> points_;
     std::vector<Piece> pieces_;
     math::ConvexBody body_;
+    std::vector<math::dvec3> flat_;
 };
 
 /// The scene as the fits see it: boxes of some dozens of triangles.

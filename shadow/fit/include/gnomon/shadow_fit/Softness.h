@@ -18,6 +18,8 @@ struct FilterUse {
     std::string_view name = {};
     Spread spread = Spread::none;
     int pageTexels = shadow_fit::pageTexels;  ///< a side, at the most
+    /// How far it goes, in what it spreads by: where kernels have tails.
+    double tails = 1.0;
 };
 /// Every filter a technique can name. Their lookups are shadow's business.
 std::span<const FilterUse> filterUses() noexcept;
@@ -37,7 +39,7 @@ double extentOf(const LightShape& light) noexcept;
 /// @param share      half a kernel's width, a share of the map's side
 /// @param receivers  of which some must be in front of the light
 /// @param casters    bounds of what casts
-double lookupReach(Spread spread, const LightShape& light, double softness, double share,
+double lookupReach(const FilterUse& filter, const LightShape& light, double softness, double share,
                    std::span<const math::dvec3> receivers, const math::Box& casters);
 
 }  // namespace gnomon::shadow_fit

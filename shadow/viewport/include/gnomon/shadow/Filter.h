@@ -27,6 +27,9 @@ struct FilterInfo {
     std::string_view glsl = {};
     std::string_view shared = {};          ///< GLSL that stands before it: softGlsl()
     const PyramidInfo* pyramid = nullptr;  ///< what it reads of pages besides their depths
+    /// How far around a place it reads the map, texels, where the light's reach is less.
+    float leastTexels = 1.0F;
+    bool bleeds = false;  ///< what is in shadow may be lit: it says how much may be lit at the most
 };
 
 /// Every filter built in, sorted by name.
