@@ -27,6 +27,7 @@ protected:
             e->far = 100.0 * scale;
         }
         const View eye = seen(lens, 256, 256, 512);
+        edit(eye.viewport)->softness = static_cast<float>(0.05 * scale);
         Both made = both(eye, sun.node);
         edit(root)->removeChild(sun.node);
         EXPECT_TRUE(app.destroyTree(sun.node).has_value());

@@ -12,7 +12,7 @@ const PyramidInfo moments{.channels = 4,
                           .glsl = R"glsl(
 vec4 firstLevel(ivec2 cell) {
     vec4 depths = textureGather(page, vec3((vec2(cell * 2) + 2.0) * texel, layer)) - 0.5;
-    vec4 up = exp(80.0 * depths), down = -exp(-80.0 * depths);
+    vec4 up = exp(40.0 * depths), down = -exp(-40.0 * depths);
     return 0.25 * vec4(dot(up, vec4(1.0)), dot(up, up), dot(down, vec4(1.0)), dot(down, down));
 }
 )glsl",
@@ -28,16 +28,18 @@ float filteredShadow(int first, ShadowPoint point) {
     float slope = abs(point.slope.x) + abs(point.slope.y);
     float here = max(point.place.z, 0.0) - 0.5 + slope * slackTexels;
     vec4 moments = momentsAround(first, point);
-    float up = exp(80.0 * here), down = -exp(-80.0 * here);
+    // The mean of what is convex is above what the mean makes of it: for a plane by this much.
+    float across = 0.5 * slope * kernelRadius(first, point);
+    float up = exp(40.0 * (here + 20.0 * across * across)), down = -exp(-40.0 * here);
     // What a texel's slope and rounding make of the warped depths.
-    vec2 least = 80.0 * (0.5 * slope + 2e-5) * vec2(up, down);
+    vec2 least = 40.0 * (0.5 * slope + 2e-5) * vec2(up, down);
     least *= least;
     return min(litAtMost(moments.xy, up, least.x), litAtMost(moments.zw, down, least.y));
 }
 )glsl",
             .shared = momentsGlsl(),
             .pyramid = &moments,
-            .leastTexels = 4.0F,
+            .leastTexels = 8.0F,
             .bleeds = true};
 }
 

@@ -31,7 +31,7 @@ float filteredShadow(int first, ShadowPoint point) {
 )glsl",
             .shared = momentsGlsl(),
             .pyramid = &moments,
-            .leastTexels = 4.0F,
+            .leastTexels = 8.0F,
             .bleeds = true};
 }
 

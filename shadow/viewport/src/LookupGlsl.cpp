@@ -152,7 +152,9 @@ ShadowPoint movedPoint(int first, ShadowPoint point, vec2 by) {
     vec2 step_ = (u.xy * by.x + v.xy * by.y) * point.scale;
 #ifdef PERSPECTIVE_MAPS
     float w = point.w + u.z * by.x + v.z * by.y;
-    step_ = (point.place.xy * point.w + step_) / w - point.place.xy;
+    // At a vanishing point, or beyond one: as far from the map.
+    step_ = min(point.w, w) > 1e-6 ? (point.place.xy * point.w + step_) / w - point.place.xy
+                                   : vec2(-1e6);
     point.w = w;
 #endif
     point.place += vec3(step_, dot(point.slope, step_));
@@ -163,7 +165,7 @@ ShadowPoint movedPoint(int first, ShadowPoint point, vec2 by) {
 float texelsPerUnit(int first, ShadowPoint point) {
     vec3 u = shadowMaps[first].alongU.xyz, v = shadowMaps[first].alongV.xyz;
     vec2 a = u.xy * point.scale - point.place.xy * u.z, b = v.xy * point.scale - point.place.xy * v.z;
-    return sqrt(max(dot(a, a), dot(b, b))) / point.w;
+    return sqrt(max(dot(a, a), dot(b, b))) / max(point.w, 1e-6);
 }
 
 float filteredShadow(int first, ShadowPoint point);

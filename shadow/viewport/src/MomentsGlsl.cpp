@@ -28,11 +28,16 @@ std::string_view momentsGlsl() noexcept {
     return R"glsl(
 layout(binding = 9) uniform sampler2DArray shadowMoments;
 
+// Of the kernel, texels: as wide as the finest cells are at the least.
+float kernelRadius(int first, ShadowPoint point) {
+    float radius = min(shadowMaps[first].light.w / point.axial, shadowMaps[first].kernel.z);
+    return max(radius * texelsPerUnit(first, point), 2.0);
+}
+
 // Moments over the kernel: the level whose cells, with what is blurred and interpolated of them, are
 // as wide.
 vec4 momentsAround(int first, ShadowPoint point) {
-    float radius = min(shadowMaps[first].light.w / point.axial, shadowMaps[first].kernel.z) *
-                   texelsPerUnit(first, point);
+    float radius = kernelRadius(first, point);
     vec2 at = point.place.xy;
 #ifdef PAGED_MAPS
     float pageSize = shadowMaps[first].size.y;
@@ -49,7 +54,7 @@ vec4 momentsAround(int first, ShadowPoint point) {
     if (max(off.x, off.y) > 0.5 * shadowMaps[first].size.x) return vec4(-1e30, 1e30, -1e30, 1e30);
     float cells = float(textureSize(shadowMoments, 0).x);
     // Radii, in texels: 2 of the finest, then 8 and doubling.
-    float octaves = log2(max(radius, 2.0) * 0.5);
+    float octaves = log2(radius * 0.5);
     return textureLod(shadowMoments, vec3(at / (2.0 * cells), float(layer)),
                       octaves < 2.0 ? octaves * 0.5 : octaves - 1.0);
 }

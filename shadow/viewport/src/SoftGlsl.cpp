@@ -94,7 +94,7 @@ struct Around {
 Around around(int first, ShadowPoint point, float radius) {
     radius += 1.0;  // what is interpolated
     // Cells as large as that: their neighbours are in what is known of them.
-    int level = max(int(ceil(log2(radius * 0.25))), 0);
+    int level = clamp(int(ceil(log2(radius * 0.25))), 0, 20);
     float cellSide = float(4 << level);
     float pageSize = shadowMaps[first].size.y;
     if (cellSide > pageSize) return Around(false, false, 1.0);
@@ -117,11 +117,12 @@ Around around(int first, ShadowPoint point, float radius) {
     vec2 off = abs(bounds.xy - point.slope) * radius;
     vec2 own = abs(bounds.xy) * radius;
     float slack = (abs(point.slope.x) + abs(point.slope.y)) * slackTexels + slackDepth;
-    // Beyond the map it is lit.
+    // Beyond the map, and beyond its farthest depth where nothing was drawn, it is lit.
     vec2 out_ = abs(point.place.xy - 0.5 * shadowMaps[first].size.x) + radius;
     bool within = max(out_.x, out_.y) <= 0.5 * shadowMaps[first].size.x;
     return Around(bounds.w + here - point.place.z + off.x + off.y <= slack,
-                  within && bounds.z + here - point.place.z - off.x - off.y > slack,
+                  within && bounds.z + here - own.x - own.y > 0.0 &&
+                      bounds.z + here - point.place.z - off.x - off.y > slack,
                   min(bounds.w + here + own.x + own.y, 1.0));
 }
 
