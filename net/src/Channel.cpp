@@ -8,6 +8,8 @@
 namespace gnomon::net {
 namespace {
 
+constexpr int bulkBufferBytes = 4 << 20;  // the system may grant less
+
 /// A view of buffers kept elsewhere: Asio copies its sequence at each step of a write.
 struct BufferView {
     using value_type = asio::const_buffer;
@@ -70,8 +72,8 @@ void Channel::read() {
 std::span<std::byte> Channel::roomForInput() {
     if (largeLength_ == 0) return std::span{input_}.subspan(end_);
     if (largeArrived_ == large_.size()) {
-        // Doubles what has arrived: an announced length alone allocates nothing.
-        const std::size_t more = std::max(inputBytes, largeArrived_);
+        // Doubles what has arrived: an announced length alone allocates little.
+        const std::size_t more = std::max(keptBytes, largeArrived_);
         large_.resize(std::min(largeLength_, largeArrived_ + more));
     }
     return std::span{large_}.subspan(largeArrived_);
@@ -120,7 +122,7 @@ Result<bool> Channel::parseOne() {
         if (largeArrived_ < largeLength_) return false;
         largeLength_ = 0;
         auto done = deliver(largeType_, large_);
-        large_ = {};
+        if (large_.size() > keptBytes) large_ = {};
         if (!done) return tl::unexpected{std::move(done).error()};
         return true;
     }
@@ -176,6 +178,11 @@ Result<void> Channel::deliver(std::uint32_t type, std::span<const std::byte> bod
         return tl::unexpected{std::move(why)};
     }
     return {};
+}
+
+void Channel::expectBulk() {
+    error_code ignored;
+    socket_.set_option(tcp::socket::receive_buffer_size{bulkBufferBytes}, ignored);
 }
 
 void Channel::resume() {

@@ -66,6 +66,9 @@ public:
     bool isSecured() const noexcept { return !tls_ || tls_->established(); }
     /// What may come from now on.
     void setRoute(Route route) noexcept { route_ = route; }
+    /// Large messages will come. The system's own choice of buffer holds one or two of loopback's
+    /// 64 KiB segments, and then each chunk waits for a delayed acknowledgement.
+    void expectBulk();
 
     void queue(Part part);
     /// Starts sending what is queued, in one write; while a write runs, the next one takes it all.
@@ -93,6 +96,8 @@ public:
 
 private:
     static constexpr std::size_t inputBytes = std::size_t{64} << 10U;
+    /// Enough for every message of a bulk connection, which come one after the other.
+    static constexpr std::size_t keptBytes = std::size_t{1} << 20U;
     /// Read at a time before the other side has proved the key.
     static constexpr std::size_t strangerBytes = std::size_t{4} << 10U;
     /// Sealed at a time: enough for one write of whatever a frame usually is.

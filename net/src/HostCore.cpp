@@ -139,6 +139,7 @@ Result<void> HostCore::greeted(Channel& from, std::span<const std::byte> body) {
         }
         bulkTimer_.cancel();
         guest->setRoute(Route::toServerBulk);
+        guest->expectBulk();
         session_->bulk = guest;
         session_->images.attach(guest);
     } else if (session_) {

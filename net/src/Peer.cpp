@@ -151,6 +151,7 @@ Result<void> Peer::welcome(std::span<const std::byte> body) {
 
 void Peer::joinBulk(tcp::socket socket) {
     bulkChannel_ = std::make_shared<Channel>(std::move(socket), Route::toClientBulk, *this, seal());
+    bulkChannel_->expectBulk();
     auto hello = owner_.greeting();
     hello.role = wire::Role::bulk;
     hello.token = token_;
