@@ -31,6 +31,12 @@ tcp::acceptor listen(asio::io_context& io, const ServerOptions& options) {
 
 }  // namespace
 
+bool needsKey(const std::string& address) {
+    error_code ec;
+    const auto parsed = asio::ip::make_address(address, ec);
+    return !ec && !isLoopback(parsed);
+}
+
 class ServerHost::Impl {
 public:
     Impl(ServerOptions options, field::TypeRegistry& types) : types_{types} {

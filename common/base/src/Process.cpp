@@ -10,7 +10,9 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <sstream>
 #include <utility>
 
 namespace gnomon {
@@ -23,15 +25,15 @@ void closeFd(int& fd) noexcept {
 std::error_code lastError() { return {errno, std::generic_category()}; }
 
 /// What runs in the child between fork and exec: async-signal-safe calls only.
-[[noreturn]] void becomeProgram(const ChildOptions& options, char* const* arguments,
-                                char* const* environment, int out, int err, int report,
-                                pid_t parent) {
+[[noreturn]] void becomeProgram(const ChildOptions& options, const char* program,
+                                char* const* arguments, char* const* environment, int in, int out,
+                                int err, int report, pid_t parent) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(127);  // the parent died before prctl took hold
     ::dup2(out, STDOUT_FILENO);
     if (err >= 0) ::dup2(err, STDERR_FILENO);
-    const int devNull = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
-    if (devNull >= 0) ::dup2(devNull, STDIN_FILENO);
+    if (in < 0) in = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+    if (in >= 0) ::dup2(in, STDIN_FILENO);
     if (options.memoryLimit) {
         const rlimit limit{*options.memoryLimit, *options.memoryLimit};
         ::setrlimit(RLIMIT_AS, &limit);
@@ -41,10 +43,22 @@ std::error_code lastError() { return {errno, std::generic_category()}; }
         const rlimit limit{seconds, seconds + 1};
         ::setrlimit(RLIMIT_CPU, &limit);
     }
-    ::execve(arguments[0], arguments, environment);
+    ::execve(program, arguments, environment);
     const int code = errno;
     [[maybe_unused]] const auto written = ::write(report, &code, sizeof code);
     ::_exit(127);
+}
+
+/// Where a program lies that is only named; as it is where it is not found.
+std::string found(const std::string& program) {
+    const char* path = std::getenv("PATH");
+    if (program.find('/') != std::string::npos || path == nullptr) return program;
+    std::istringstream folders{path};
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        auto candidate = (folder.empty() ? "." : folder) + "/" + program;
+        if (::access(candidate.c_str(), X_OK) == 0) return candidate;
+    }
+    return program;
 }
 
 }  // namespace
@@ -59,13 +73,15 @@ Result<Child> Child::start(const ChildOptions& options) {
     GNOMON_EXPECTS(!options.arguments.empty(), "a program needs a name");
     std::array<int, 2> out{-1, -1};
     std::array<int, 2> err{-1, -1};
+    std::array<int, 2> in{-1, -1};
     std::array<int, 2> report{-1, -1};
     const auto closeAll = [&] {
-        for (auto* pipe : {&out, &err, &report})
+        for (auto* pipe : {&out, &err, &in, &report})
             for (int& fd : *pipe) closeFd(fd);
     };
     if (::pipe2(out.data(), O_CLOEXEC) != 0 || ::pipe2(report.data(), O_CLOEXEC) != 0 ||
-        (!options.keepStderr && ::pipe2(err.data(), O_CLOEXEC) != 0)) {
+        (!options.keepStderr && ::pipe2(err.data(), O_CLOEXEC) != 0) ||
+        (options.openInput && ::pipe2(in.data(), O_CLOEXEC) != 0)) {
         const auto cause = lastError();
         closeAll();
         return fail(Errc::process, "cannot make a pipe for " + options.arguments[0], cause);
@@ -89,15 +105,14 @@ Result<Child> Child::start(const ChildOptions& options) {
         environment.push_back(const_cast<char*>(ours.c_str()));
     environment.push_back(nullptr);
 
+    const std::string program = found(options.arguments[0]);
     const pid_t parent = ::getpid();
     const pid_t pid = ::fork();
     if (pid == 0)
-        becomeProgram(options, arguments.data(), environment.data(), out[1], err[1], report[1],
-                      parent);
+        becomeProgram(options, program.c_str(), arguments.data(), environment.data(), in[0], out[1],
+                      err[1], report[1], parent);
     const auto forkError = lastError();
-    closeFd(out[1]);
-    closeFd(err[1]);
-    closeFd(report[1]);
+    for (int* fd : {&in[0], &out[1], &err[1], &report[1]}) closeFd(*fd);
     if (pid < 0) {
         closeAll();
         return fail(Errc::process, "cannot fork for " + options.arguments[0], forkError);
@@ -109,6 +124,7 @@ Result<Child> Child::start(const ChildOptions& options) {
     child.pid_ = pid;
     child.out_ = out[0];
     child.err_ = err[0];
+    child.in_ = in[1];
     if (got == sizeof code)
         return fail(Errc::process, "cannot start " + options.arguments[0],
                     {code, std::generic_category()});
@@ -119,6 +135,7 @@ Child::Child(Child&& other) noexcept
     : pid_{std::exchange(other.pid_, -1)},
       out_{std::exchange(other.out_, -1)},
       err_{std::exchange(other.err_, -1)},
+      in_{std::exchange(other.in_, -1)},
       status_{other.status_} {}
 
 Child& Child::operator=(Child&& other) noexcept {
@@ -127,6 +144,7 @@ Child& Child::operator=(Child&& other) noexcept {
         pid_ = std::exchange(other.pid_, -1);
         out_ = std::exchange(other.out_, -1);
         err_ = std::exchange(other.err_, -1);
+        in_ = std::exchange(other.in_, -1);
         status_ = other.status_;
     }
     return *this;
@@ -144,6 +162,7 @@ void Child::end() noexcept {
     pid_ = -1;
     closeFd(out_);
     closeFd(err_);
+    closeFd(in_);
 }
 
 void Child::signal(int number) const noexcept {

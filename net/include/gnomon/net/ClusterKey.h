@@ -49,6 +49,9 @@ private:
 /// Null: no key; then only this machine is spoken to.
 using SharedKey = std::shared_ptr<const ClusterKey>;
 
+/// Whether that is a numeric address through which other computers can be reached.
+bool needsKey(const std::string& address);
+
 /// Where a key lies unless one is named: $XDG_CONFIG_HOME/gnomon/cluster.key, or that below
 /// ~/.config. Empty where there is no home.
 std::filesystem::path defaultKeyFile();

@@ -16,11 +16,13 @@ std::filesystem::path programFolder();
 
 /// How a child process starts. It dies with its parent (PR_SET_PDEATHSIG), so none is orphaned.
 struct ChildOptions {
-    std::vector<std::string> arguments = {};        ///< arguments[0] is the program's path
+    std::vector<std::string> arguments = {};        ///< arguments[0]: path, or a name found in PATH
     std::vector<std::string> environment = {};      ///< `NAME=value`, added to ours
     std::optional<std::uint64_t> memoryLimit = {};  ///< address space, bytes
     std::optional<std::chrono::seconds> cpuLimit = {};
     bool keepStderr = false;  ///< true: stderr is ours; false: it is read by takeStderr()
+    /// true: its standard input is empty and ends with the Child, or with us; false: it has none
+    bool openInput = false;
 };
 
 /// A started program whose standard output we read. Killed, and waited for, when destroyed.
@@ -49,6 +51,7 @@ private:
     pid_t pid_ = -1;
     int out_ = -1;
     int err_ = -1;
+    int in_ = -1;  // nothing is written to it
     std::optional<int> status_ = {};
 };
 
