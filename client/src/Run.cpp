@@ -58,10 +58,13 @@ int dryRun(const config::Config& wall, const ApplicationOptions& options, Consol
 
 /// Who is not there yet, for people.
 std::string waitingFor(const std::vector<net::ServerStatus>& servers) {
-    for (const auto& server : servers)
-        if (server.state != net::ServerState::member)
-            return fmt::format("{} ({}:{}): {}", server.address.name, server.address.host,
-                               server.address.port, server.text);
+    for (const auto& server : servers) {
+        if (server.state == net::ServerState::member) continue;
+        const auto label = fmt::format("{} ({}:{})", server.address.name, server.address.host,
+                                       server.address.port);
+        // An error begins with it already.
+        return server.text.starts_with(label) ? server.text : label + ": " + server.text;
+    }
     return {};
 }
 

@@ -46,7 +46,7 @@ private:
 /// Nothing is let through before the handshake is complete and both sides have proved the key.
 class TlsSession {
 public:
-    /// Most bytes a handshake may take; ours take about 700.
+    /// Most bytes a handshake may take; ours take about 500.
     static constexpr std::size_t maxHandshakeBytes = std::size_t{16} << 10U;
     /// Plain bytes of a full record.
     static constexpr std::size_t recordBytes = std::size_t{16} << 10U;

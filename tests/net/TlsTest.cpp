@@ -98,7 +98,7 @@ TEST(Tls, AHandshakeIsSmall) {
     const auto hello = take(pair.client);
     ASSERT_TRUE(Pair::advance(pair.server, hello));
     const auto answer = take(pair.server);
-    EXPECT_LT(hello.size() + answer.size(), 1024U);
+    EXPECT_LT(hello.size() + answer.size(), 512U);
 }
 
 TEST(Tls, AnotherKeyIsNamedOnBothSides) {
