@@ -80,7 +80,7 @@ struct TlsCallbacks {
 TlsContext::TlsContext(TlsSide side, SharedKey key)
     : side_{side},
       key_{std::move(key)},
-      transport_{BIO_meth_new(BIO_get_new_index() | BIO_TYPE_SOURCE_SINK, "gnomon")},
+      transport_{BIO_meth_new(BIO_TYPE_SOURCE_SINK, "gnomon")},  // indices are few; none is needed
       context_{SSL_CTX_new(side == TlsSide::client ? TLS_client_method() : TLS_server_method())} {
     BIO_METHOD* method = transport_.get();
     SSL_CTX* context = context_.get();

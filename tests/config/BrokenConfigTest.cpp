@@ -116,8 +116,9 @@ constexpr Broken brokenWalls[] = {
     {.name = "optionOfTwoLines",
      .from = "pipeline = 1",
      .to = "[cluster]\noptions = [\"a\\nb\"]",
-     .error = "wall.toml:7:11: cluster: options is [\"a\\nb\"], must be 1 to 256 bytes of text on "
-              "one line"},
+     .error =
+         "wall.toml:7:11: cluster: options is [\"a\\u000ab\"], must be 1 to 256 bytes of text on "
+         "one line"},
     {.name = "mapTooSmall",
      .from = "1024",
      .to = "8",
