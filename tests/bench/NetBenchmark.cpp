@@ -39,7 +39,11 @@ void barrier(benchmark::State& state) {
     Session session{state.range(0), state.range(1) != 0};
     for ([[maybe_unused]] auto _ : state) session.frame({});
 }
-BENCHMARK(barrier)->ArgNames({"servers", "tls"})->ArgsProduct({{1, 2, 8}, {0, 1}})->UseRealTime();
+BENCHMARK(barrier)
+    ->ArgNames({"servers", "tls"})
+    ->ArgsProduct({{1, 2, 8}, {0, 1}})
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 
 /// A frame in which that many transforms move.
 void changes(benchmark::State& state) {
@@ -59,6 +63,7 @@ void changes(benchmark::State& state) {
 BENCHMARK(changes)
     ->ArgNames({"transforms", "tls"})
     ->ArgsProduct({{100, 10'000}, {0, 1}})
+    ->MeasureProcessCPUTime()
     ->UseRealTime();
 
 /// A frame that brings a new payload of 32 MiB.
@@ -78,7 +83,8 @@ void bulk(benchmark::State& state) {
     }
     state.SetBytesProcessed(state.iterations() * (std::int64_t{32} << 20U));
 }
-BENCHMARK(bulk)->ArgNames({"tls"})->DenseRange(0, 1)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(bulk)->ArgNames({"tls"})->DenseRange(0, 1)->MeasureProcessCPUTime()->UseRealTime()->Unit(
+    benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace gnomon::net::test
