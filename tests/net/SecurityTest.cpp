@@ -103,6 +103,23 @@ TEST(Security, ASlowHandshakeIsEndedInTime) {
     EXPECT_TRUE(server.turnedAway("no end of the TLS handshake within 150 ms"));
 }
 
+TEST(Security, AnEndlessHandshakeIsEnded) {
+    TestServer server{"left", {.handshakeTimeout = 600s, .key = testKey()}};
+    RawSocket raw{server.port()};
+    // A hello that promises 16 KiB, a byte a record.
+    const std::byte begun[] = {std::byte{22}, std::byte{3},    std::byte{1},
+                               std::byte{0},  std::byte{4},    std::byte{1},
+                               std::byte{0},  std::byte{0x3f}, std::byte{0xff}};
+    const std::byte more[] = {std::byte{22}, std::byte{3}, std::byte{1},
+                              std::byte{0},  std::byte{1}, std::byte{3}};
+    raw.send(begun);
+    for (int i = 0; i < 4000; ++i) raw.send(more);
+    bool closed = false;
+    raw.readAll(&closed);
+    EXPECT_TRUE(closed);
+    EXPECT_TRUE(server.turnedAway("a TLS handshake of more than 16384 bytes"));
+}
+
 TEST(Security, AServerThatNeverShakesHandsIsGivenUp) {
     const DeafListener deaf;
     TestHub hub{{.startTimeout = 150ms}, {}, testKey()};
