@@ -55,6 +55,7 @@ public:
 
     explicit TlsSession(std::shared_ptr<const TlsContext> context,
                         std::uint64_t recordsPerKey = defaultRecordsPerKey);
+    ~TlsSession() = default;
     TlsSession(const TlsSession&) = delete;
     TlsSession& operator=(const TlsSession&) = delete;
 

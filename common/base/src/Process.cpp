@@ -49,16 +49,17 @@ std::error_code lastError() { return {errno, std::generic_category()}; }
     ::_exit(127);
 }
 
-/// Where a program lies that is only named; as it is where it is not found.
+/// Where a program lies that is only named: in a folder of PATH, never in the current one. Empty
+/// where it is not found.
 std::string found(const std::string& program) {
+    if (program.find('/') != std::string::npos) return program;
     const char* path = std::getenv("PATH");
-    if (program.find('/') != std::string::npos || path == nullptr) return program;
-    std::istringstream folders{path};
+    std::istringstream folders{path == nullptr ? "" : path};
     for (std::string folder; std::getline(folders, folder, ':');) {
-        auto candidate = (folder.empty() ? "." : folder) + "/" + program;
-        if (::access(candidate.c_str(), X_OK) == 0) return candidate;
+        auto candidate = folder + "/" + program;
+        if (!folder.empty() && ::access(candidate.c_str(), X_OK) == 0) return candidate;
     }
-    return program;
+    return {};
 }
 
 }  // namespace
@@ -71,6 +72,9 @@ std::filesystem::path programFolder() {
 
 Result<Child> Child::start(const ChildOptions& options) {
     GNOMON_EXPECTS(!options.arguments.empty(), "a program needs a name");
+    const std::string program = found(options.arguments[0]);
+    if (program.empty())
+        return fail(Errc::process, "cannot start " + options.arguments[0] + ": not found in PATH");
     std::array<int, 2> out{-1, -1};
     std::array<int, 2> err{-1, -1};
     std::array<int, 2> in{-1, -1};
@@ -105,7 +109,6 @@ Result<Child> Child::start(const ChildOptions& options) {
         environment.push_back(const_cast<char*>(ours.c_str()));
     environment.push_back(nullptr);
 
-    const std::string program = found(options.arguments[0]);
     const pid_t parent = ::getpid();
     const pid_t pid = ::fork();
     if (pid == 0)
