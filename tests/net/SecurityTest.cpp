@@ -1,5 +1,6 @@
 // Who gets to a server, and who does not, over real sockets.
 #include <gnomon/net/Codec.h>
+#include <gnomon/net/Probe.h>
 #include <gtest/gtest.h>
 
 #include <deque>
@@ -199,6 +200,32 @@ TEST(Security, ReplayedBytesBeginNoSession) {
     EXPECT_TRUE(closed);
     EXPECT_EQ(server.seen().joined, 1);
     expectServing(server, testKey());
+}
+
+TEST(Security, AProbeFindsOutWhoHasTheKeyAndDisturbsNobody) {
+    TestServer same{"same", {.key = testKey()}}, other{"other", {.key = testKey('2')}};
+    TestServer none{"none", {.key = {}}};
+    const DeafListener deaf;
+    const auto answers = probe({same.address(),
+                                other.address(),
+                                none.address(),
+                                {.name = "deaf", .host = "127.0.0.1", .port = deaf.port()},
+                                {.name = "nobody", .host = "127.0.0.1", .port = 1}},
+                               testKey(), 300ms);
+    ASSERT_EQ(answers.size(), 5U);
+    EXPECT_TRUE(answers[0]) << answers[0].error().what;
+    const char* expected[] = {"", "does not accept the cluster key", "has it the cluster key?",
+                              "no answer within 300 ms", "refused"};
+    for (std::size_t i = 1; i < answers.size(); ++i) {
+        ASSERT_FALSE(answers[i]) << i;
+        EXPECT_NE(answers[i].error().text().find(expected[i]), std::string::npos)
+            << answers[i].error().text();
+    }
+    EXPECT_EQ(same.seen().joined, 0);
+    const auto plain =
+        probe({none.address(), {.name = "far", .host = "192.0.2.1", .port = 7430}}, {}, 5000ms);
+    EXPECT_TRUE(plain[0]);
+    EXPECT_FALSE(plain[1]);
 }
 
 TEST(Security, OtherComputersAreOnlySpokenToWithAKey) {

@@ -97,6 +97,22 @@ TEST_F(Cluster, AMachineThatCannotBeReachedIsNamed) {
         << run.errors()[0];
 }
 
+TEST_F(Cluster, CheckSaysWhichServersAreThere) {
+    const auto wall = farWall("launch = \"ssh\"");
+    Program run{{"run", wall, "--backend", "none"}, {path()}};
+    ASSERT_TRUE(run.says("fps"));
+    Program there{{"check", wall, "--reach"}};
+    EXPECT_EQ(there.wait(), 0) << there.output();
+    for (const auto& name : names)
+        EXPECT_NE(there.output().find(name + " (0.0.0.0:"), std::string::npos) << there.output();
+    run.signal(SIGINT);
+    EXPECT_EQ(run.wait(), 0);
+    Program gone{{"check", wall, "--reach"}};
+    EXPECT_EQ(gone.wait(), 1);
+    ASSERT_EQ(gone.errors().size(), 1U);
+    EXPECT_NE(gone.errors()[0].find("2 of 2 servers"), std::string::npos) << gone.errors()[0];
+}
+
 TEST_F(Cluster, ADryRunSaysWhatWouldBeStarted) {
     const auto wall = farWall("launch = \"slurm\"");
     Program run{{"run", wall, "--backend", "egl", "--dry-run"}};
