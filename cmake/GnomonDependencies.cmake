@@ -4,6 +4,7 @@ find_package(fmt REQUIRED)
 find_package(GTest REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
+find_package(OpenSSL 3 REQUIRED)
 
 find_path(GNOMON_GLM_INCLUDE glm/glm.hpp REQUIRED)
 find_path(GNOMON_EXPECTED_INCLUDE tl/expected.hpp REQUIRED)

@@ -19,12 +19,12 @@ function(gnomon_add_module name)
   endif()
 endfunction()
 
-# gnomon_add_test(<name> LABELS <...> SOURCES <...> DEPENDS <...>)
-# A GoogleTest program; every TEST becomes a ctest of its own. Its files find test data under
-# GNOMON_SOURCE_DIR.
+# gnomon_add_test(<name> LABELS <...> SOURCES <...> DEPENDS <...> [PREFIX <...>])
+# A GoogleTest program; every TEST becomes a ctest of its own, with PREFIX before its name. Its files
+# find test data under GNOMON_SOURCE_DIR.
 include(GoogleTest)
 function(gnomon_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "LABELS;SOURCES;DEPENDS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT;PREFIX" "LABELS;SOURCES;DEPENDS")
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)
   endif()
@@ -35,5 +35,6 @@ function(gnomon_add_test name)
   target_compile_definitions(${name} PRIVATE GNOMON_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     GNOMON_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
   gtest_discover_tests(${name} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
+    TEST_PREFIX "${arg_PREFIX}"
     PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
 endfunction()

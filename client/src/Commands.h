@@ -12,6 +12,7 @@ using Action = std::function<int()>;
 /// Each adds its subcommand; when that is chosen, @p action becomes what it does.
 void addRun(CLI::App& program, Action& action);
 void addCheck(CLI::App& program, Action& action);
+void addKeygen(CLI::App& program, Action& action);
 void addBench(CLI::App& program, Action& action);
 void addShot(CLI::App& program, Action& action);
 void addTruth(CLI::App& program, Action& action);

@@ -9,6 +9,8 @@
 namespace gnomon::client {
 namespace {
 
+using Words = std::vector<std::string>;
+
 /// Quoted for a shell where it needs to be.
 std::string quoted(const std::string& word) {
     const auto plain = [](unsigned char c) {
@@ -21,14 +23,72 @@ std::string quoted(const std::string& word) {
     return result + "'";
 }
 
+std::string quoted(const Words& words) {
+    std::string line;
+    for (const auto& word : words) line += (line.empty() ? "" : " ") + quoted(word);
+    return line;
+}
+
+/// What the server itself is told.
+Words serverWords(const config::Server& server, const std::string& program,
+                  const std::string& address, const LaunchSettings& settings,
+                  const std::filesystem::path& key) {
+    Words words{program,
+                "--name",
+                server.name,
+                "--listen",
+                fmt::format("{}:{}", address, server.port),
+                "--backend",
+                settings.backend};
+    const auto add = [&](const char* option, std::string value) {
+        words.emplace_back(option);
+        words.push_back(std::move(value));
+    };
+    if (server.gpu >= 0) add("--gpu", std::to_string(server.gpu));
+    if (!key.empty()) add("--key", key.string());
+    return words;
+}
+
+/// The same through a starter of programs on other machines. The server ends with its input, which
+/// ends with the starter, however that ends.
+Words farWords(const config::Cluster& cluster, const config::Server& server,
+               const LaunchSettings& settings) {
+    const bool isV6 = server.host.find(':') != std::string::npos;
+    Words inner =
+        serverWords(server, cluster.server, isV6 ? "::" : "0.0.0.0", settings, settings.farKey);
+    inner.emplace_back("--exit-with-input");
+    Words words{cluster.launch == config::Launch::ssh     ? "ssh"
+                : cluster.launch == config::Launch::slurm ? "srun"
+                                                          : "mpirun"};
+    const auto add = [&](const Words& more) {
+        words.insert(words.end(), more.begin(), more.end());
+    };
+    add(cluster.options);
+    switch (cluster.launch) {
+        case config::Launch::ssh:
+            // Asks nobody for a password; the other side's shell splits the last word again.
+            add({"-o", "BatchMode=yes", "-o", "ConnectTimeout=10", server.host});
+            words.push_back("exec " + quoted(inner));
+            break;
+        case config::Launch::slurm:
+            add({"--nodelist=" + server.host, "--nodes=1", "--ntasks=1", "--overlap",
+                 "--unbuffered"});
+            add(inner);
+            break;
+        case config::Launch::mpi:
+            add({"--host", server.host, "-n", "1"});
+            add(inner);
+            break;
+        case config::Launch::none:
+            break;
+    }
+    return words;
+}
+
 }  // namespace
 
 std::string LaunchCommand::text() const {
-    std::string line;
-    for (const auto& variable : environment) line += quoted(variable) + " ";
-    for (const auto& argument : arguments)
-        line += quoted(argument) + (&argument == &arguments.back() ? "" : " ");
-    return line;
+    return quoted(environment) + (environment.empty() ? "" : " ") + quoted(arguments);
 }
 
 unsigned rasterizerThreads(unsigned servers, unsigned cores) noexcept {
@@ -36,32 +96,30 @@ unsigned rasterizerThreads(unsigned servers, unsigned cores) noexcept {
 }
 
 std::vector<LaunchCommand> launchCommands(const config::Config& config,
-                                          const std::filesystem::path& program,
-                                          std::string_view backend, unsigned cores) {
-    const std::string path =
-        (program.empty() ? programFolder() / "gnomon-server" : program).string();
+                                          const LaunchSettings& settings) {
+    const std::string program =
+        (settings.program.empty() ? programFolder() / "gnomon-server" : settings.program).string();
     std::vector<LaunchCommand> commands;
     for (const auto& server : config.servers) {
-        if (!config::isLocal(server.host)) continue;
-        LaunchCommand command{.server = server.name};
-        command.arguments = {path,
-                             "--name",
-                             server.name,
-                             "--listen",
-                             fmt::format("127.0.0.1:{}", server.port),
-                             "--backend",
-                             std::string{backend}};
-        if (server.gpu >= 0) {
-            command.arguments.emplace_back("--gpu");
-            command.arguments.push_back(std::to_string(server.gpu));
-        }
-        commands.push_back(std::move(command));
+        if (config::isLocal(server.host))
+            commands.push_back(
+                {.server = server.name,
+                 .arguments = serverWords(server, program, "127.0.0.1", settings, settings.key)});
+        else if (config.cluster.launch != config::Launch::none)
+            commands.push_back({.server = server.name,
+                                .host = server.host,
+                                .arguments = farWords(config.cluster, server, settings)});
     }
     // Someone who set it knows better.
     if (std::getenv("LP_NUM_THREADS") == nullptr) {
-        const unsigned threads = rasterizerThreads(static_cast<unsigned>(commands.size()), cores);
+        const auto isLocal = [](const LaunchCommand& command) {
+            return command.host == LaunchCommand{}.host;
+        };
+        const auto local = std::count_if(commands.begin(), commands.end(), isLocal);
+        const unsigned threads = rasterizerThreads(static_cast<unsigned>(local), settings.cores);
         for (auto& command : commands)
-            command.environment.push_back(fmt::format("LP_NUM_THREADS={}", threads));
+            if (isLocal(command))
+                command.environment.push_back(fmt::format("LP_NUM_THREADS={}", threads));
     }
     return commands;
 }

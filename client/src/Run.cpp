@@ -7,8 +7,8 @@
 #include <cerrno>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <thread>
 
+#include "ClusterAccess.h"
 #include "Console.h"
 #include "Interrupt.h"
 #include "RunOptions.h"
@@ -40,17 +40,17 @@ ApplicationOptions applicationOptions(const RunOptions& options, Console& consol
     made.local = options.local;
     made.tileSize = options.tile;
     made.backend = options.backend;
+    made.key = options.key;
     made.log = [&console](LogLevel level, const std::string& line) { console.log(level, line); };
     return made;
 }
 
 int dryRun(const config::Config& wall, const ApplicationOptions& options, Console& console) {
     const auto config = orThrow(adjusted(wall, options));
-    for (const auto& command : launchCommands(config, options.server, options.backend,
-                                              std::max(1U, std::thread::hardware_concurrency())))
-        console.line(command.text());
+    const auto key = orThrow(findKeyFile(config, options));
+    for (const auto& command : launchCommands(config, options, key)) console.line(command.text());
     for (const auto& server : config.servers)
-        if (!config::isLocal(server.host))
+        if (isAwaited(config, server))
             console.line(fmt::format("# {}: expected to be running at {}:{}", server.name,
                                      server.host, server.port));
     return 0;
@@ -58,10 +58,13 @@ int dryRun(const config::Config& wall, const ApplicationOptions& options, Consol
 
 /// Who is not there yet, for people.
 std::string waitingFor(const std::vector<net::ServerStatus>& servers) {
-    for (const auto& server : servers)
-        if (server.state != net::ServerState::member)
-            return fmt::format("{} ({}:{}): {}", server.address.name, server.address.host,
-                               server.address.port, server.text);
+    for (const auto& server : servers) {
+        if (server.state == net::ServerState::member) continue;
+        const auto label = fmt::format("{} ({}:{})", server.address.name, server.address.host,
+                                       server.address.port);
+        // An error begins with it already.
+        return server.text.starts_with(label) ? server.text : label + ": " + server.text;
+    }
     return {};
 }
 
@@ -117,7 +120,7 @@ private:
     /// False where a signal came first.
     bool start(const Interrupt& interrupt) {
         for (const auto& server : app_.config().servers)
-            if (!config::isLocal(server.host))
+            if (isAwaited(app_.config(), server))
                 console_.line(fmt::format("{}: expected to be running at {}:{}", server.name,
                                           server.host, server.port));
         auto said = Clock::now();

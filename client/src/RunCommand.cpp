@@ -33,6 +33,8 @@ void addRun(CLI::App& program, Action& action) {
     addBackendOption(command, options->backend);
     command.add_flag("--local", options->local,
                      "All servers as processes of this machine, whatever the hosts say");
+    command.add_option("--key", options->key, "Cluster key, instead of the config's")
+        ->type_name("FILE");
     command
         .add_option_function<std::string>(
             "--tile",

@@ -19,6 +19,7 @@ struct RunOptions {
     ShadowArguments shadow = {};
     std::string backend = "auto";
     bool local = false;
+    std::filesystem::path key = {};  ///< empty: the config's, or the usual one
     std::optional<config::Cells> tile = {};
     std::filesystem::path out = {};
     std::filesystem::path json = {};

@@ -4,7 +4,7 @@
 #include <gnomon/shadow_fit/ShadowFitter.h>
 
 #include <algorithm>
-#include <thread>
+#include <map>
 
 namespace gnomon::client {
 
@@ -40,26 +40,31 @@ LogCallback oneAtATime(LogCallback log) {
 
 ServerLink::ServerLink(const config::Config& config, const field::TypeRegistry& types,
                        const ApplicationOptions& options)
-    : log_{oneAtATime(options.log)}, sync_{syncOptions(config.sync)}, hub_{types, sync_, hooks()} {
+    : log_{oneAtATime(options.log)},
+      sync_{syncOptions(config.sync)},
+      keyFile_{orThrow(findKeyFile(config, options))},
+      hub_{types, sync_, hooks(), orThrow(loadKey(keyFile_))} {
     for (const auto& server : config.servers)
-        if (!config::isLocal(server.host))
+        if (isAwaited(config, server))
             remote_.push_back({.name = server.name,
                                .host = server.host,
                                .port = static_cast<std::uint16_t>(server.port)});
     LauncherOptions launch;
-    launch.commands = launchCommands(config, options.server, options.backend,
-                                     std::max(1U, std::thread::hardware_concurrency()));
+    launch.commands = launchCommands(config, options, keyFile_);
+    std::map<std::string, std::string> hosts;
+    for (const auto& command : launch.commands) hosts[command.server] = command.host;
     launch.log = [this](LogLevel level, const std::string& line) {
         // That we leave is no news.
         log_(ending_ && level == LogLevel::info ? LogLevel::debug : level, line);
     };
-    launch.listening = [this](const std::string& server, std::uint16_t port) {
+    launch.listening = [this, hosts = std::move(hosts)](const std::string& server,
+                                                        std::uint16_t port) {
         const std::lock_guard lock{mutex_};
-        listening_.push_back({.name = server, .host = "127.0.0.1", .port = port});
+        listening_.push_back({.name = server, .host = hosts.at(server), .port = port});
         listens_.notify_all();
     };
-    local_ = launch.commands.size();
-    if (local_ > 0) launcher_ = std::make_unique<Launcher>(std::move(launch));
+    launched_ = launch.commands.size();
+    if (launched_ > 0) launcher_ = std::make_unique<Launcher>(std::move(launch));
 }
 
 ServerLink::~ServerLink() { shutdown(); }
@@ -119,7 +124,7 @@ Result<void> ServerLink::start(field::ChangeList everything,
         if (keepGoing && !keepGoing()) return fail(Errc::timeout, "given up while starting");
         const auto slice = Clock::now() + 100ms;
         const auto joined = hub_.waitForAll(progress, slice);
-        if (joined && listened_.size() >= local_) break;
+        if (joined && listened_.size() >= launched_) break;
         if (Clock::now() >= deadline) return joined ? silentServers() : joined;
         if (!joined) continue;
         // Everybody known takes part; the others have not said their port yet.
@@ -132,8 +137,9 @@ Result<void> ServerLink::start(field::ChangeList everything,
 
 Result<void> ServerLink::silentServers() const {
     return fail(Errc::timeout,
-                fmt::format("{} of {} local servers did not say their port within {:.0f} s",
-                            local_ - listened_.size(), local_,
+                fmt::format("{} of {} servers that were started did not say their port within "
+                            "{:.0f} s",
+                            launched_ - listened_.size(), launched_,
                             std::chrono::duration<double>(sync_.startTimeout).count()));
 }
 

@@ -9,6 +9,8 @@
 #include <set>
 #include <string>
 
+#include "ClusterAccess.h"
+
 namespace gnomon::client {
 
 /// The servers of a wall: launched where they are local, connected, started again.
@@ -40,12 +42,13 @@ private:
 
     const LogCallback log_;
     const net::SyncOptions sync_;
+    const KeyFile keyFile_;
     std::atomic<bool> ending_{false};
     std::mutex mutex_;
     std::condition_variable listens_;                 // a server that is not yet in the hub
     std::vector<net::ServerAddress> listening_ = {};  // guarded
     std::vector<net::ServerAddress> remote_ = {};
-    std::size_t local_ = 0;                // servers launched here
+    std::size_t launched_ = 0;             // servers started from here
     std::set<std::string> listened_ = {};  // those of them that ever said their port
     net::ClientHub hub_;
     std::unique_ptr<Launcher> launcher_ = {};

@@ -91,8 +91,8 @@ std::optional<ServerProcess::Clock::time_point> ServerProcess::due() const noexc
 
 Result<void> ServerProcess::startIfDue(Clock::time_point now) {
     if (child_ || now < due_) return {};
-    auto child =
-        Child::start({.arguments = command_.arguments, .environment = command_.environment});
+    auto child = Child::start(
+        {.arguments = command_.arguments, .environment = command_.environment, .takesInput = true});
     startedAt_ = now;
     if (!child) {
         due_ = now + pause_;

@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
     gnomon::client::Action action;
     gnomon::client::addRun(program, action);
     gnomon::client::addCheck(program, action);
+    gnomon::client::addKeygen(program, action);
     gnomon::client::addBench(program, action);
     gnomon::client::addShot(program, action);
     gnomon::client::addTruth(program, action);

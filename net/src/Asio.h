@@ -33,6 +33,13 @@ inline double millisecondsOf(SteadyClock::duration span) noexcept {
     return std::chrono::duration<double, std::milli>(span).count();
 }
 
+/// This machine alone reaches it; also as an IPv4 address in IPv6's clothes.
+inline bool isLoopback(const asio::ip::address& address) {
+    if (address.is_v6() && address.to_v6().is_v4_mapped())
+        return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6()).is_loopback();
+    return address.is_loopback();
+}
+
 /// "127.0.0.1:4711", or "(closed)".
 std::string nameOf(const tcp::socket& socket);
 

@@ -8,6 +8,8 @@
 namespace gnomon::net {
 namespace {
 
+constexpr int bulkBufferBytes = 4 << 20;  // the system may grant less
+
 /// A view of buffers kept elsewhere: Asio copies its sequence at each step of a write.
 struct BufferView {
     using value_type = asio::const_buffer;
@@ -23,6 +25,13 @@ std::uint32_t loadU32(const std::byte* from) noexcept {
     return value;
 }
 
+/// Whether these are the first bytes of a TLS alert or handshake. No message of ours begins so: as
+/// its length that would be odd, and the type that follows does not exist.
+bool speaksTls(std::span<const std::byte> bytes) noexcept {
+    return bytes.size() >= 2 && (bytes[0] == std::byte{21} || bytes[0] == std::byte{22}) &&
+           bytes[1] == std::byte{3};
+}
+
 }  // namespace
 
 std::string nameOf(const tcp::socket& socket) {
@@ -32,12 +41,14 @@ std::string nameOf(const tcp::socket& socket) {
               : fmt::format("{}:{}", end.address().to_string(), end.port());
 }
 
-Channel::Channel(tcp::socket socket, Route route, Receiver& receiver)
+Channel::Channel(tcp::socket socket, Route route, Receiver& receiver,
+                 std::unique_ptr<TlsSession> tls)
     : socket_{std::move(socket)},
+      tls_{std::move(tls)},
       route_{route},
       receiver_{&receiver},
-      remote_{nameOf(socket_)},
-      input_(inputBytes) {
+      remote_{nameOf(socket_)} {
+    if (!tls_) input_.resize(inputBytes);
     error_code ignored;  // a socket that died already is found by the first read
     socket_.set_option(tcp::no_delay{true}, ignored);
     socket_.non_blocking(true, ignored);
@@ -45,26 +56,36 @@ Channel::Channel(tcp::socket socket, Route route, Receiver& receiver)
 
 void Channel::read() {
     if (closed_ || reading_ || (paused_ && !finishing_)) return;
+    if (tls_) return pump();
     reading_ = true;
-    std::span<std::byte> room;
-    if (largeLength_ > 0) {
-        if (largeArrived_ == large_.size()) {
-            // Doubles what has arrived: an announced length alone allocates nothing.
-            const std::size_t more = std::max(inputBytes, largeArrived_);
-            large_.resize(std::min(largeLength_, largeArrived_ + more));
-        }
-        room = std::span{large_}.subspan(largeArrived_);
-    } else {
-        room = std::span{input_}.subspan(end_);
+    const auto room = roomForInput();
+    socket_.async_read_some(asio::buffer(room.data(), room.size()),
+                            [self = shared_from_this()](error_code ec, std::size_t count) {
+                                self->reading_ = false;
+                                if (self->closed_) return;
+                                if (ec) return self->ended(ec);
+                                self->arrived(count);
+                            });
+}
+
+/// Where the next plain bytes go; never empty.
+std::span<std::byte> Channel::roomForInput() {
+    if (largeLength_ == 0) return std::span{input_}.subspan(end_);
+    if (largeArrived_ == large_.size()) {
+        // Doubles what has arrived: an announced length alone allocates little.
+        const std::size_t more = std::max(keptBytes, largeArrived_);
+        large_.resize(std::min(largeLength_, largeArrived_ + more));
     }
-    socket_.async_read_some(
-        asio::buffer(room.data(), room.size()),
-        [self = shared_from_this()](error_code ec, std::size_t count) {
-            self->reading_ = false;
-            if (self->closed_) return;
-            if (!ec) return self->arrived(count);
-            self->fail({.code = Errc::disconnected, .what = self->remote_, .cause = ec});
-        });
+    return std::span{large_}.subspan(largeArrived_);
+}
+
+/// The other side closed, or the connection broke.
+void Channel::ended(error_code ec) {
+    if (!tls_ && speaksTls(std::span{input_}.first(end_).subspan(begin_)))
+        return fail("it speaks TLS: a cluster key is needed on this side, too");
+    if (!isSecured())
+        return fail("it ended the connection within the TLS handshake: has it the cluster key?");
+    fail({.code = Errc::disconnected, .what = remote_, .cause = ec});
 }
 
 void Channel::arrived(std::size_t count) {
@@ -101,7 +122,7 @@ Result<bool> Channel::parseOne() {
         if (largeArrived_ < largeLength_) return false;
         largeLength_ = 0;
         auto done = deliver(largeType_, large_);
-        large_ = {};
+        if (large_.size() > keptBytes) large_ = {};
         if (!done) return tl::unexpected{std::move(done).error()};
         return true;
     }
@@ -118,6 +139,9 @@ Result<bool> Channel::parseOne() {
     const std::size_t length = loadU32(input_.data() + begin_);
     const std::uint32_t type = loadU32(input_.data() + begin_ + 4);
     const Limit limit = limitOf(route_, type);
+    if (!limit.allowed && speaksTls(std::span{input_}.subspan(begin_)))
+        return gnomon::fail(Errc::protocol,
+                            remote_ + ": it speaks TLS: a cluster key is needed on this side, too");
     if (!limit.allowed)
         return gnomon::fail(Errc::protocol,
                             fmt::format("{}: message of type {} ({}) is not expected here", remote_,
@@ -156,6 +180,11 @@ Result<void> Channel::deliver(std::uint32_t type, std::span<const std::byte> bod
     return {};
 }
 
+void Channel::expectBulk() {
+    error_code ignored;
+    socket_.set_option(tcp::socket::receive_buffer_size{bulkBufferBytes}, ignored);
+}
+
 void Channel::resume() {
     if (!paused_) return;
     paused_ = false;
@@ -166,7 +195,7 @@ void Channel::queue(Part part) {
     if (!isOpen() || part.bytes.empty()) return;
     queuedBytes_ += part.bytes.size();
     queue_.push_back(std::move(part));
-    if (writing_ && queuedBytes_ > maxQueuedBytes)
+    if ((writing_ || !isSecured()) && queuedBytes_ > maxQueuedBytes)
         fail({.code = Errc::limit,
               .what = fmt::format("{}: {} bytes wait to be sent, the limit is {}: it does not read",
                                   remote_, queuedBytes_, maxQueuedBytes)});
@@ -174,6 +203,7 @@ void Channel::queue(Part part) {
 
 void Channel::flush() {
     if (closed_ || writing_ || queue_.empty()) return;
+    if (tls_) return flushSealed();
     writing_ = true;
     ++writes_;
     inFlight_.clear();
@@ -206,6 +236,10 @@ void Channel::finish() {
 }
 
 void Channel::end() {
+    if (tls_) {
+        tls_->end();
+        sendLastWords();
+    }
     error_code ignored;
     socket_.shutdown(tcp::socket::shutdown_send, ignored);
 }
@@ -219,6 +253,10 @@ void Channel::fail(Error why) {
     asio::post(socket_.get_executor(), [self = shared_from_this(), why = std::move(why)]() mutable {
         if (self->receiver_ != nullptr) self->receiver_->closed(*self, std::move(why));
     });
+}
+
+void Channel::fail(std::string why) {
+    fail({.code = Errc::protocol, .what = remote_ + ": " + std::move(why)});
 }
 
 void Channel::close() {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "Asio.h"
+#include "Tls.h"
 
 namespace gnomon::net {
 
@@ -35,6 +36,8 @@ public:
     /// A whole message; @p body is valid during the call. An error closes the channel.
     virtual Result<void> received(Channel& from, MessageType type,
                                   std::span<const std::byte> body) = 0;
+    /// Both sides have proved the cluster key. Not called for a channel without TLS.
+    virtual void secured(Channel& /*channel*/) {}
     /// Everything queued was handed to the operating system.
     virtual void drained(Channel& /*channel*/) {}
     /// The channel closed by itself. Called once, never from within another call of the channel,
@@ -46,17 +49,26 @@ public:
 ///
 /// Used by one thread at a time. Messages are checked against limitOf(route, type) before any of
 /// their bytes is kept; memory grows with the bytes that arrived, not with the length announced.
+///
+/// With a TlsSession all of it is sealed, and before the other side has proved the cluster key
+/// nothing of it is looked at, and no more than a few KiB are kept.
 class Channel : public std::enable_shared_from_this<Channel> {
 public:
     /// Queued but unsent bytes beyond which the other side counts as not reading; the write in
     /// progress does not count, so that one large message passes.
     static constexpr std::size_t maxQueuedBytes = std::size_t{64} << 20U;
 
-    Channel(tcp::socket socket, Route route, Receiver& receiver);
+    Channel(tcp::socket socket, Route route, Receiver& receiver,
+            std::unique_ptr<TlsSession> tls = nullptr);
 
     void start() { parse(); }
+    /// False while the TLS handshake goes on; what is queued waits for its end.
+    bool isSecured() const noexcept { return !tls_ || tls_->established(); }
     /// What may come from now on.
     void setRoute(Route route) noexcept { route_ = route; }
+    /// Large messages will come. The system's own choice of buffer holds one or two of loopback's
+    /// 64 KiB segments, and then each chunk waits for a delayed acknowledgement.
+    void expectBulk();
 
     void queue(Part part);
     /// Starts sending what is queued, in one write; while a write runs, the next one takes it all.
@@ -84,16 +96,36 @@ public:
 
 private:
     static constexpr std::size_t inputBytes = std::size_t{64} << 10U;
+    /// Enough for every message of a bulk connection, which come one after the other.
+    static constexpr std::size_t keptBytes = std::size_t{1} << 20U;
+    /// Read at a time before the other side has proved the key.
+    static constexpr std::size_t strangerBytes = std::size_t{4} << 10U;
+    /// Sealed at a time: enough for one write of whatever a frame usually is.
+    static constexpr std::size_t slice = std::size_t{256} << 10U;
 
     void read();
+    std::span<std::byte> roomForInput();
     void arrived(std::size_t count);
+    void ended(error_code ec);
     void parse();
     Result<bool> parseOne();
     Result<void> deliver(std::uint32_t type, std::span<const std::byte> body);
     void fail(Error why);
+    void fail(std::string why);
     void end();
 
+    // ChannelTls.cpp: the same with a TlsSession in between.
+    void pump();
+    bool openOne();
+    bool shakeHands();
+    void readSealed();
+    void flushSealed();
+    bool seal();
+    bool sealPart(std::span<const std::byte> bytes);
+    void sendLastWords();
+
     tcp::socket socket_;
+    const std::unique_ptr<TlsSession> tls_;  // null: in the clear
     Route route_;
     Receiver* receiver_;
     std::string remote_;
@@ -104,12 +136,15 @@ private:
     std::size_t largeArrived_ = 0, largeLength_ = 0;
     std::uint32_t largeType_ = 0;
 
+    std::vector<std::byte> sealedInput_, sealedOutput_, staged_;
+    std::size_t nextPart_ = 0, partOffset_ = 0;  // of inFlight_, to be sealed next
+
     std::vector<Part> queue_, inFlight_;
     std::vector<asio::const_buffer> buffers_;
     std::size_t queuedBytes_ = 0;
 
     bool reading_ = false, writing_ = false, paused_ = false;
-    bool parsing_ = false, finishing_ = false, closed_ = false;
+    bool parsing_ = false, pumping_ = false, finishing_ = false, closed_ = false;
     TimePoint lastHeard_ = SteadyClock::now();
     std::uint64_t bytesSent_ = 0, writes_ = 0;
 };

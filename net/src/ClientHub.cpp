@@ -9,8 +9,9 @@ namespace gnomon::net {
 
 class ClientHub::Impl {
 public:
-    Impl(const field::TypeRegistry& types, SyncOptions options, HubHooks hooks)
-        : core_{std::make_unique<HubCore>(io_, types, options, std::move(hooks), mailbox_)},
+    Impl(const field::TypeRegistry& types, SyncOptions options, HubHooks hooks,
+         const SharedKey& key)
+        : core_{std::make_unique<HubCore>(io_, types, options, std::move(hooks), key, mailbox_)},
           thread_{[this] { run(); }} {}
 
     ~Impl() { shutdown(); }
@@ -79,8 +80,9 @@ public:
     std::thread thread_;
 };
 
-ClientHub::ClientHub(const field::TypeRegistry& types, SyncOptions options, HubHooks hooks)
-    : impl_{std::make_unique<Impl>(types, options, std::move(hooks))} {}
+ClientHub::ClientHub(const field::TypeRegistry& types, SyncOptions options, HubHooks hooks,
+                     const SharedKey& key)
+    : impl_{std::make_unique<Impl>(types, options, std::move(hooks), key)} {}
 
 ClientHub::~ClientHub() = default;
 

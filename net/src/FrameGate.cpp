@@ -10,6 +10,9 @@ namespace {
 /// What an event takes beside its change list: many tiny ones must count, too.
 constexpr std::size_t eventBytes = 256;
 
+/// Reserved for a payload before its bytes are there: address space, no memory yet.
+constexpr std::size_t atOnce = std::size_t{64} << 20U;
+
 std::size_t bytesOf(const field::ChangeList& changes) { return changes.bytes.size() + eventBytes; }
 
 std::string text(const field::Hash128& hash) {
@@ -37,7 +40,7 @@ Result<void> FrameGate::payload(const wire::Payload& part) {
                                 part.total, text(part.hash)));
     if (upload.bytes.capacity() < upload.bytes.size() + part.tail.size()) {
         // Doubling, but not beyond the size that was announced.
-        const auto doubled = 2 * (upload.bytes.size() + part.tail.size());
+        const auto doubled = std::max(2 * (upload.bytes.size() + part.tail.size()), atOnce);
         upload.bytes.reserve(std::min<std::size_t>(doubled, upload.total));
     }
     upload.bytes.insert(upload.bytes.end(), part.tail.begin(), part.tail.end());

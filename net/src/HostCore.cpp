@@ -28,6 +28,8 @@ HostCore::HostCore(asio::io_context& io, tcp::acceptor acceptor, ServerOptions o
     : io_{io},
       acceptor_{std::move(acceptor)},
       options_{std::move(options)},
+      tls_{options_.key ? std::make_shared<const TlsContext>(TlsSide::server, options_.key)
+                        : nullptr},
       inbox_{inbox},
       progress_{progress},
       acceptTimer_{io},
@@ -59,16 +61,42 @@ void HostCore::accept() {
 }
 
 void HostCore::admit(tcp::socket socket) {
-    if (guests_.size() >= maxGuests) return;  // closes it
-    auto channel = std::make_shared<Channel>(std::move(socket), Route::toServerGreeting, *this);
+    makeRoom();
+    auto channel = std::make_shared<Channel>(std::move(socket), Route::toServerGreeting, *this,
+                                             tls_ ? std::make_unique<TlsSession>(tls_) : nullptr);
     auto limit = std::make_unique<Timer>(io_);
     limit->after(options_.handshakeTimeout, [this, raw = channel.get()] {
-        if (const auto guest = takeGuest(*raw)) {
-            refuse(guest, fmt::format("no Hello within {} ms", options_.handshakeTimeout.count()));
-        }
+        const auto guest = takeGuest(*raw);
+        if (!guest) return;
+        const auto ms = options_.handshakeTimeout.count();
+        if (guest->isSecured()) return refuse(guest, fmt::format("no Hello within {} ms", ms));
+        report(fmt::format("{}: no end of the TLS handshake within {} ms", guest->remote(), ms));
+        guest->close();
     });
     guests_.push_back({.channel = channel, .limit = std::move(limit)});
     channel->start();
+}
+
+/// A newcomer takes the place of the one that is longest on its way in, if there is none left:
+/// who only holds places open keeps nobody out for long.
+void HostCore::makeRoom() {
+    if (guests_.size() < maxGuests) return;
+    const auto stranger = std::find_if(guests_.begin(), guests_.end(), [](const Guest& guest) {
+        return !guest.channel->isSecured();
+    });
+    const auto goes = stranger != guests_.end() ? stranger : guests_.begin();
+    const auto channel = goes->channel;
+    guests_.erase(goes);
+    report(
+        fmt::format("{}: more than {} connections on their way in", channel->remote(), maxGuests));
+    channel->close();
+}
+
+void HostCore::report(const std::string& why) {
+    const auto now = SteadyClock::now();
+    if (!options_.turnedAway || now - reportedAt_ < std::chrono::seconds{1}) return;
+    reportedAt_ = now;
+    options_.turnedAway("turned away " + why);
 }
 
 std::shared_ptr<Channel> HostCore::takeGuest(Channel& channel) {
@@ -111,6 +139,7 @@ Result<void> HostCore::greeted(Channel& from, std::span<const std::byte> body) {
         }
         bulkTimer_.cancel();
         guest->setRoute(Route::toServerBulk);
+        guest->expectBulk();
         session_->bulk = guest;
         session_->images.attach(guest);
     } else if (session_) {
@@ -269,7 +298,8 @@ void HostCore::drained(Channel& channel) {
 void HostCore::closed(Channel& channel, Error why) {
     if (session_ && (&channel == session_->control.get() || &channel == session_->bulk.get()))
         return endSession(why, &channel == session_->bulk.get());
-    takeGuest(channel);
+    const auto guest = takeGuest(channel);
+    if (guest && (!guest->isSecured() || why.code == Errc::protocol)) report(why.text());
 }
 
 void HostCore::sendControl(Part part) {

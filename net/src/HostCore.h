@@ -73,16 +73,20 @@ private:
     void endSession(const Error& why, bool tellClient);
     void refuse(std::shared_ptr<Channel> channel, const std::string& why);
     std::shared_ptr<Channel> takeGuest(Channel& channel);
+    void makeRoom();
+    void report(const std::string& why);
 
     asio::io_context& io_;
     tcp::acceptor acceptor_;
     const ServerOptions options_;
+    const std::shared_ptr<const TlsContext> tls_;  // null: no key
     Inbox& inbox_;
     const Progress& progress_;
     std::list<Guest> guests_;
     std::unique_ptr<Session> session_;
     std::uint64_t sessionCount_ = 0;
     Timer acceptTimer_, bulkTimer_, silentTimer_;
+    TimePoint reportedAt_ = {};
 };
 
 }  // namespace gnomon::net

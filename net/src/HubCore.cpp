@@ -14,11 +14,12 @@ constexpr Milliseconds farewell{300};
 }  // namespace
 
 HubCore::HubCore(asio::io_context& io, const field::TypeRegistry& types, SyncOptions options,
-                 HubHooks hooks, Mailbox& mailbox)
+                 HubHooks hooks, const SharedKey& key, Mailbox& mailbox)
     : io_{io},
       types_{types},
       options_{options},
       hooks_{std::move(hooks)},
+      tls_{key ? std::make_shared<const TlsContext>(TlsSide::client, key) : nullptr},
       mailbox_{mailbox},
       session_{types, 1},
       watchTimer_{io},
@@ -32,7 +33,7 @@ void HubCore::connect(ServerAddress address) {
     if (found != peers_.end()) {
         peer = found->get();
     } else {
-        peers_.push_back(std::make_unique<Peer>(io_, address, options_, *this));
+        peers_.push_back(std::make_unique<Peer>(io_, address, options_, *this, tls_));
         peer = peers_.back().get();
     }
     peer->open(std::move(address));

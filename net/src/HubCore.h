@@ -45,7 +45,7 @@ struct Mailbox {
 class HubCore final : public PeerOwner {
 public:
     HubCore(asio::io_context& io, const field::TypeRegistry& types, SyncOptions options,
-            HubHooks hooks, Mailbox& mailbox);
+            HubHooks hooks, const SharedKey& key, Mailbox& mailbox);
 
     void connect(ServerAddress address);
     void handOver(std::shared_ptr<FrameCall> call);
@@ -121,6 +121,7 @@ private:
     const field::TypeRegistry& types_;
     const SyncOptions options_;
     const HubHooks hooks_;
+    const std::shared_ptr<const TlsContext> tls_;  // null: no key
     Mailbox& mailbox_;
 
     field::Aspect session_;

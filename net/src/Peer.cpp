@@ -23,11 +23,12 @@ std::uint64_t randomToken() {
 }  // namespace
 
 Peer::Peer(asio::io_context& io, ServerAddress address, const SyncOptions& options,
-           PeerOwner& owner)
+           PeerOwner& owner, std::shared_ptr<const TlsContext> tls)
     : io_{io},
       address_{std::move(address)},
       options_{options},
       owner_{owner},
+      tls_{std::move(tls)},
       resolver_{io},
       timer_{io},
       pingTimer_{io} {}
@@ -73,6 +74,13 @@ void Peer::dial(Connected then) {
 }
 
 void Peer::dialTo(std::vector<tcp::endpoint> ends, Connected then) {
+    if (!tls_) {
+        std::erase_if(ends, [](const tcp::endpoint& end) { return !isLoopback(end.address()); });
+        if (ends.empty())
+            return drop({.code = Errc::config,
+                         .what = label() + ": other computers are only spoken to with a cluster "
+                                           "key, and there is none"});
+    }
     dialling_ = std::make_shared<tcp::socket>(io_);
     auto to = std::make_shared<const std::vector<tcp::endpoint>>(std::move(ends));
     asio::async_connect(
@@ -90,16 +98,33 @@ void Peer::dialTo(std::vector<tcp::endpoint> ends, Connected then) {
         });
 }
 
+std::unique_ptr<TlsSession> Peer::seal() const {
+    return tls_ ? std::make_unique<TlsSession>(tls_) : nullptr;
+}
+
 void Peer::greet(tcp::socket socket) {
-    control_ = std::make_shared<Channel>(std::move(socket), Route::toClientControl, *this);
+    control_ = std::make_shared<Channel>(std::move(socket), Route::toClientControl, *this, seal());
     token_ = randomToken();
     auto hello = owner_.greeting();
     hello.role = wire::Role::control;
     hello.token = token_;
-    control_->start();
-    control_->send(Part::of(packet(hello)));
     state_ = ServerState::greeting;
     owner_.changed();
+    if (tls_)
+        timer_.after(std::min(connectLimit, options_.startTimeout), [this] {
+            drop({.code = Errc::timeout, .what = label() + ": no end of the TLS handshake"});
+        });
+    else
+        awaitHello();
+    control_->start();
+    control_->send(Part::of(packet(hello)));
+}
+
+void Peer::secured(Channel& channel) {
+    if (&channel == control_.get() && state_ == ServerState::greeting) awaitHello();
+}
+
+void Peer::awaitHello() {
     timer_.after(options_.startTimeout, [this] {
         drop({.code = Errc::timeout,
               .what = fmt::format("{}: no answer to Hello within {} ms", label(),
@@ -125,7 +150,8 @@ Result<void> Peer::welcome(std::span<const std::byte> body) {
 }
 
 void Peer::joinBulk(tcp::socket socket) {
-    bulkChannel_ = std::make_shared<Channel>(std::move(socket), Route::toClientBulk, *this);
+    bulkChannel_ = std::make_shared<Channel>(std::move(socket), Route::toClientBulk, *this, seal());
+    bulkChannel_->expectBulk();
     auto hello = owner_.greeting();
     hello.role = wire::Role::bulk;
     hello.token = token_;
@@ -338,7 +364,8 @@ std::string Peer::stateText() const {
         case ServerState::connecting:
             return lastError_.empty() ? "connecting" : lastError_ + " (trying again)";
         case ServerState::greeting:
-            return "connected, no answer to Hello yet";
+            return control_ && !control_->isSecured() ? "connected, no end of the TLS handshake yet"
+                                                      : "connected, no answer to Hello yet";
         case ServerState::joining:
             if (bulk_.waitingBytes() > 0)
                 return fmt::format("loading ({:.1f} MB to be sent)",

@@ -56,7 +56,9 @@ struct Standing {
 /// the clock. What frames it gets is the hub's business.
 class Peer final : public Receiver {
 public:
-    Peer(asio::io_context& io, ServerAddress address, const SyncOptions& options, PeerOwner& owner);
+    /// @param tls  null: in the clear, and to this machine only
+    Peer(asio::io_context& io, ServerAddress address, const SyncOptions& options, PeerOwner& owner,
+         std::shared_ptr<const TlsContext> tls);
 
     /// Connects now; a connection to another address ends.
     void open(ServerAddress address);
@@ -95,6 +97,7 @@ public:
 
     Result<void> received(Channel& from, MessageType type,
                           std::span<const std::byte> body) override;
+    void secured(Channel& channel) override;
     void drained(Channel& channel) override;
     void closed(Channel& channel, Error why) override;
 
@@ -105,6 +108,8 @@ private:
     void dial(Connected then);
     void dialTo(std::vector<tcp::endpoint> ends, Connected then);
     void greet(tcp::socket socket);
+    void awaitHello();
+    std::unique_ptr<TlsSession> seal() const;
     void joinBulk(tcp::socket socket);
     Result<void> welcome(std::span<const std::byte> body);
     Result<void> pongArrived(std::span<const std::byte> body);
@@ -118,6 +123,7 @@ private:
     ServerAddress address_;
     const SyncOptions& options_;
     PeerOwner& owner_;
+    const std::shared_ptr<const TlsContext> tls_;
     ServerState state_ = ServerState::waiting;
     bool stopping_ = false;
     std::uint64_t attempt_ = 0;  // callbacks of earlier ones are stale

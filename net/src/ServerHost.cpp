@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 #include <gnomon/net/ServerHost.h>
 
-#include <cstdlib>
-
 #include "HostCore.h"
 #include "Reactor.h"
 
@@ -20,11 +18,8 @@ tcp::acceptor listen(asio::io_context& io, const ServerOptions& options) {
     error_code ec;
     const auto address = asio::ip::make_address(options.address, ec);
     if (ec) throw refuse("not a numeric IPv4 or IPv6 address, such as 127.0.0.1");
-    const char* insecure = std::getenv("GNOMON_INSECURE");  // before any thread of ours starts
-    if (!address.is_loopback() && (insecure == nullptr || std::string_view{insecure} != "1"))
-        throw refuse(
-            "other computers may only connect with a key, which this version cannot check "
-            "yet (GNOMON_INSECURE=1 lets anybody in)");
+    if (!isLoopback(address) && !options.key)
+        throw refuse("other computers may only connect with a cluster key, and there is none");
     const tcp::endpoint end{address, options.port};
     tcp::acceptor acceptor{io};
     if (acceptor.open(end.protocol(), ec)) throw refuse({}, ec);
@@ -35,6 +30,12 @@ tcp::acceptor listen(asio::io_context& io, const ServerOptions& options) {
 }
 
 }  // namespace
+
+bool needsKey(const std::string& address) {
+    error_code ec;
+    const auto parsed = asio::ip::make_address(address, ec);
+    return !ec && !isLoopback(parsed);
+}
 
 class ServerHost::Impl {
 public:

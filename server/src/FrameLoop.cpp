@@ -38,20 +38,38 @@ net::EventKind kindOf(gl::InputEvent::Kind kind) {
     return net::EventKind::key;
 }
 
+/// The key that was named; for other computers, else the usual one. @throws Failure
+net::SharedKey keyOf(const Options& options) {
+    std::filesystem::path file = options.key;
+    if (file.empty() && net::needsKey(options.address)) {
+        file = net::defaultKeyFile();
+        std::error_code ec;
+        if (!std::filesystem::exists(file, ec))
+            throw Failure{Errc::config,
+                          "cannot listen on " + options.address +
+                              ": other computers may only connect with a cluster key; use --key "
+                              "FILE, or make one with gnomon keygen"};
+    }
+    if (file.empty()) return {};
+    return std::make_shared<const net::ClusterKey>(orThrow(net::ClusterKey::load(file)));
+}
+
 }  // namespace
 
 FrameLoop::FrameLoop(Options options) : options_{std::move(options)} {
+    const auto key = keyOf(options_);
     scene::addTypes(types_);
     std::string description = "no rendering (--backend none)";
     if (options_.backend != "none") description = station(options_.gpu).context().description();
     std::fprintf(stderr, "%s\n", description.c_str());
-    host_ = std::make_unique<net::ServerHost>(
-        net::ServerOptions{.address = options_.address,
-                           .port = options_.port,
-                           .name = options_.name,
-                           .description = description,
-                           .exitWithClient = options_.exitWithClient},
-        types_);
+    net::ServerOptions made{.address = options_.address,
+                            .port = options_.port,
+                            .name = options_.name,
+                            .description = description,
+                            .exitWithClient = options_.exitWithClient,
+                            .key = key};
+    made.turnedAway = [](const std::string& why) { std::fprintf(stderr, "%s\n", why.c_str()); };
+    host_ = std::make_unique<net::ServerHost>(std::move(made), types_);
 }
 
 Station& FrameLoop::station(int gpu) {

@@ -15,6 +15,11 @@ bool parseOptions(int argc, char** argv, Options& options, int& exitCode) {
         ->capture_default_str();
     program.add_option("--gpu", options.gpu,
                        "GPU to render on, as the system counts them; -1: any");
+    program.add_option("--key", options.key,
+                       "cluster key (gnomon keygen): only who has it may connect; without one, and "
+                       "none in ~/.config/gnomon/cluster.key, only this machine may");
+    program.add_flag("--exit-with-input", options.exitWithInput,
+                     "end when standard input does (servers started from another machine)");
     program.add_flag("--exit-with-client", options.exitWithClient,
                      "end when the client goes away (local walls)");
     try {

@@ -12,7 +12,9 @@ struct Options {
     std::uint16_t port = 0;        ///< 0: any free one; reported on standard output
     std::string backend = "auto";  ///< egl osmesa glfw none auto
     int gpu = -1;
+    std::string key = {};  ///< cluster key file; empty: the usual one, where one is needed
     bool exitWithClient = false;
+    bool exitWithInput = false;
 };
 
 /// Parses; where it cannot, or only help was asked for, says so and sets @p exitCode.

@@ -7,9 +7,11 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <thread>
 
 #include "FrameLoop.h"
+#include "InputWatch.h"
 
 namespace {
 
@@ -53,6 +55,7 @@ int main(int argc, char** argv) {
     int exitCode = 0;
     if (!gnomon::server::parseOptions(argc, argv, options, exitCode)) return exitCode;
     const std::string name = options.name;
+    const bool exitWithInput = options.exitWithInput;
     try {
         ::signal(SIGPIPE, SIG_IGN);
         // The loop, and with it the host, outlives the thread that may call into it.
@@ -60,6 +63,8 @@ int main(int argc, char** argv) {
         SignalWatch watch;
         loop = std::make_unique<gnomon::server::FrameLoop>(std::move(options));
         watch.onSignal(loop->host());
+        std::optional<gnomon::server::InputWatch> input;
+        if (exitWithInput) input.emplace([&host = loop->host()] { host.quit(); });
         std::printf("port %u\n", static_cast<unsigned>(loop->port()));
         std::fflush(stdout);
         loop->run();

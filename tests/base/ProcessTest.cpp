@@ -96,6 +96,26 @@ TEST(Process, AMemoryLimitHolds) {
     child->wait(soon());
 }
 
+TEST(Process, AProgramThatIsOnlyNamedIsLookedForInThePath) {
+    auto child = Child::start({.arguments = {"sh", "-c", "echo $0"}});
+    ASSERT_TRUE(child) << child.error().text();
+    EXPECT_EQ(readAll(child->output()), "sh\n");
+    const auto none = Child::start({.arguments = {"gnomon-no-such-program"}});
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().what, "cannot start gnomon-no-such-program: not found in PATH");
+}
+
+TEST(Process, ItsInputIsNoneOrEndsWithUs) {
+    auto without = shell("cat; echo done");
+    ASSERT_TRUE(without);
+    EXPECT_EQ(readAll(without->output()), "done\n");
+    auto child = shell("echo started; cat; echo done >&2", {.takesInput = true});
+    ASSERT_TRUE(child);
+    std::array<char, 8> started{};
+    ASSERT_EQ(::read(child->output(), started.data(), started.size()), 8);
+    EXPECT_FALSE(child->ended());  // cat waits for input
+}
+
 TEST(Process, MovesItsOwnership) {
     auto child = shell("exit 0");
     ASSERT_TRUE(child.has_value());

@@ -135,13 +135,19 @@ TEST(Launcher, OnlyTheFirstWholePortLineCounts) {
     EXPECT_EQ(record.ports()[0].second, 42);
 }
 
-TEST(LaunchCommands, AreWhatTheConfigAsksFor) {
+config::Config threeServers(config::Launch launch = config::Launch::none) {
     config::Config config;
+    config.cluster.launch = launch;
     config.servers.push_back({.name = "left", .port = 7431, .gpu = 1});
     config.servers.push_back({.name = "far", .host = "wall01", .port = 7430});
     config.servers.push_back({.name = "it's right"});
     ::unsetenv("LP_NUM_THREADS");
-    const auto commands = launchCommands(config, "/opt/gnomon-server", "egl", 8);
+    return config;
+}
+
+TEST(LaunchCommands, AreWhatTheConfigAsksFor) {
+    const auto commands = launchCommands(
+        threeServers(), {.program = "/opt/gnomon-server", .backend = "egl", .cores = 8});
     ASSERT_EQ(commands.size(), 2U);
     EXPECT_EQ(commands[0].text(),
               "LP_NUM_THREADS=4 /opt/gnomon-server --name left --listen 127.0.0.1:7431 --backend "
@@ -149,6 +155,56 @@ TEST(LaunchCommands, AreWhatTheConfigAsksFor) {
     EXPECT_EQ(commands[1].text(),
               "LP_NUM_THREADS=4 /opt/gnomon-server --name 'it'\\''s right' --listen 127.0.0.1:0 "
               "--backend egl");
+}
+
+struct Far {
+    config::Launch launch = config::Launch::none;
+    const char* text = "";
+};
+
+class EveryLaunch : public testing::TestWithParam<Far> {};
+
+TEST_P(EveryLaunch, StartsServersElsewhereAndHereInTheirOrder) {
+    auto config = threeServers(GetParam().launch);
+    config.cluster.server = "/opt/my wall/gnomon-server";
+    config.cluster.options = {"-v"};
+    const auto commands = launchCommands(config, {.program = "/opt/gnomon-server",
+                                                  .backend = "egl",
+                                                  .cores = 8,
+                                                  .key = "/etc/a.key",
+                                                  .farKey = "/etc/a.key"});
+    ASSERT_EQ(commands.size(), 3U);
+    EXPECT_EQ(commands[0].text(),
+              "LP_NUM_THREADS=4 /opt/gnomon-server --name left --listen 127.0.0.1:7431 --backend "
+              "egl --gpu 1 --key /etc/a.key");
+    EXPECT_EQ(commands[0].host, "127.0.0.1");
+    EXPECT_EQ(commands[1].server, "far");
+    EXPECT_EQ(commands[1].host, "wall01");
+    EXPECT_EQ(commands[1].text(), GetParam().text);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, EveryLaunch,
+    testing::Values(Far{config::Launch::ssh,
+                        "ssh -v -o BatchMode=yes -o ConnectTimeout=10 wall01 'exec '\\''/opt/my "
+                        "wall/gnomon-server'\\'' --name far --listen 0.0.0.0:7430 --backend egl "
+                        "--key /etc/a.key --exit-with-input'"},
+                    Far{config::Launch::slurm,
+                        "srun -v --nodelist=wall01 --nodes=1 --ntasks=1 --overlap --unbuffered "
+                        "'/opt/my wall/gnomon-server' --name far --listen 0.0.0.0:7430 --backend "
+                        "egl --key /etc/a.key --exit-with-input"},
+                    Far{config::Launch::mpi,
+                        "mpirun -v --host wall01 -n 1 '/opt/my wall/gnomon-server' --name far "
+                        "--listen 0.0.0.0:7430 --backend egl --key /etc/a.key --exit-with-input"}),
+    [](const auto& row) { return std::string{config::name(row.param.launch)}; });
+
+TEST(LaunchCommands, ServersElsewhereFindTheUsualKeyThemselves) {
+    auto config = threeServers(config::Launch::ssh);
+    config.servers[1].host = "fe80::1";
+    const auto commands = launchCommands(config, {.key = "/home/me/.config/gnomon/cluster.key"});
+    EXPECT_NE(commands[0].text().find("--key"), std::string::npos);
+    EXPECT_EQ(commands[1].text().find("--key"), std::string::npos);
+    EXPECT_NE(commands[1].text().find("--listen :::7430"), std::string::npos);
 }
 
 TEST(LaunchCommands, ServersShareTheCores) {

@@ -100,6 +100,25 @@ constexpr Broken brokenWalls[] = {
      .to = "on_timeout = \"dorp\"",
      .error = "wall.toml:6:14: sync: on_timeout is \"dorp\", must be \"drop\" or \"wait\", did you "
               "mean \"drop\"?"},
+    {.name = "launchUnknown",
+     .from = "pipeline = 1",
+     .to = "[cluster]\nlaunch = \"shh\"",
+     .error = "wall.toml:7:10: cluster: launch is \"shh\", must be \"none\", \"ssh\", \"slurm\" or "
+              "\"mpi\", did you mean \"ssh\"?"},
+    {.name = "serverThatIsAnOption",
+     .from = "pipeline = 1",
+     .to = "[cluster]\nserver = \"-oProxyCommand=x\"",
+     .error = "wall.toml:7:10: cluster: server is \"-oProxyCommand=x\", must be a program"},
+    {.name = "optionsInOneText",
+     .from = "pipeline = 1",
+     .to = "[cluster]\noptions = \"-p 2222\"",
+     .error = "wall.toml:7:11: cluster: options is \"-p 2222\", must be a list of texts"},
+    {.name = "optionOfTwoLines",
+     .from = "pipeline = 1",
+     .to = "[cluster]\noptions = [\"a\\nb\"]",
+     .error =
+         "wall.toml:7:11: cluster: options is [\"a\\u000ab\"], must be 1 to 256 bytes of text on "
+         "one line"},
     {.name = "mapTooSmall",
      .from = "1024",
      .to = "8",

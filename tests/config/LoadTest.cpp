@@ -35,6 +35,11 @@ timeout = 0.25
 start_timeout = 10
 on_timeout = "wait"
 pipeline = 2
+[cluster]
+key = "keys/wall.key"
+launch = "ssh"
+server = "/opt/gnomon/bin/gnomon-server"
+options = ["-p", "2222"]
 [shadow]
 on = false
 technique = "lispsm+evsm"
@@ -97,6 +102,8 @@ TEST(Load, EveryKeySurvivesBeingWrittenAndRead) {
     ASSERT_TRUE(inspection.config) << allText(inspection.findings);
     const Config& config = *inspection.config;
     EXPECT_EQ(config.name, "full \"wall\"");
+    EXPECT_EQ(config.cluster.launch, Launch::ssh);
+    EXPECT_EQ(config.cluster.options, (std::vector<std::string>{"-p", "2222"}));
     EXPECT_EQ(config.shadow.offsetFactor, 10.5);
     EXPECT_EQ(config.render.background[1], (Colour{0.1, 0.2, 0.3}));
     EXPECT_EQ(config.render.near, 1e-7);
@@ -107,6 +114,17 @@ TEST(Load, EveryKeySurvivesBeingWrittenAndRead) {
     const auto again = parseConfig(toToml(config), "written.toml");
     ASSERT_TRUE(again) << again.error().text() << "\n" << toToml(config);
     EXPECT_EQ(*again, config);
+}
+
+TEST(Load, TheKeyIsLookedForBesideTheWall) {
+    const auto keyOf = [](const std::string& line) {
+        const auto text = replaced(smallWall, "[shadow]\n", "[cluster]\n" + line + "[shadow]\n");
+        const auto config = parseConfig(text, "/walls/a/wall.toml");
+        return config ? keyPath(config->cluster) : config.error().what;
+    };
+    EXPECT_EQ(keyOf("key = \"wall.key\"\n"), "/walls/a/wall.key");
+    EXPECT_EQ(keyOf("key = \"/etc/wall.key\"\n"), "/etc/wall.key");
+    EXPECT_EQ(keyOf(""), "");
 }
 
 TEST(Load, WhatIsWrittenDiffersWhenAnyValueDoes) {

@@ -4,19 +4,31 @@
 
 namespace gnomon::net::test {
 
+SharedKey testKey(char digit) {
+    return std::make_shared<const ClusterKey>(
+        orThrow(ClusterKey::parse("gnomon-key-1 " + std::string(64, digit))));
+}
+
 TestServer::TestServer(std::string name, TestServerOptions options)
     : name_{std::move(name)}, options_{std::move(options)} {
     if (options_.types)
         options_.types(types_);
     else
         types_ = testTypes();
-    host_ =
-        std::make_unique<ServerHost>(ServerOptions{.port = options_.port,
-                                                   .name = name_,
-                                                   .description = "test server",
-                                                   .exitWithClient = options_.exitWithClient,
-                                                   .handshakeTimeout = options_.handshakeTimeout},
-                                     types_);
+    ServerOptions made{.port = options_.port,
+                       .name = name_,
+                       .description = "test server",
+                       .exitWithClient = options_.exitWithClient,
+                       .key = options_.key,
+                       .handshakeTimeout = options_.handshakeTimeout};
+    made.turnedAway = [this](const std::string& why) {
+        {
+            const std::lock_guard lock{mutex_};
+            turnedAway_.push_back(why);
+        }
+        changed_.notify_all();
+    };
+    host_ = std::make_unique<ServerHost>(std::move(made), types_);
     thread_ = std::thread{[this] { run(); }};
 }
 
@@ -54,6 +66,15 @@ Seen TestServer::seen() const {
 bool TestServer::waitUntil(const std::function<bool(const Seen&)>& predicate) const {
     std::unique_lock lock{mutex_};
     return changed_.wait_until(lock, eventually(), [&] { return predicate(seen_); });
+}
+
+bool TestServer::turnedAway(const std::string& why) const {
+    std::unique_lock lock{mutex_};
+    return changed_.wait_until(lock, eventually(), [&] {
+        return std::any_of(turnedAway_.begin(), turnedAway_.end(), [&](const std::string& text) {
+            return text.find(why) != std::string::npos;
+        });
+    });
 }
 
 void TestServer::send(const InputEvent& event) {
@@ -160,12 +181,12 @@ void TestServer::handle(ServerEvent event) {
     }
 }
 
-TestHub::TestHub(SyncOptions options, HubHooks hooks) {
+TestHub::TestHub(SyncOptions options, HubHooks hooks, const SharedKey& key) {
     hooks.log = [lines = lines_](LogLevel, const std::string& text) {
         const std::lock_guard lock{lines->mutex};
         lines->lines.push_back(text);
     };
-    hub_ = std::make_unique<ClientHub>(types_, options, std::move(hooks));
+    hub_ = std::make_unique<ClientHub>(types_, options, std::move(hooks), key);
 }
 
 std::vector<std::string> TestHub::log() const {

@@ -26,6 +26,18 @@ inline SteadyClock::time_point in(std::chrono::milliseconds span) {
 /// For what must happen: far more than it takes, also under a sanitizer on a busy machine.
 inline SteadyClock::time_point eventually() { return in(30s); }
 
+/// Two keys, always the same ones.
+SharedKey testKey(char digit = '1');
+/// What servers and hubs have unless a test says otherwise: no key, or, in the programs built with
+/// GNOMON_TEST_WITH_KEY, one and the same.
+inline SharedKey usualKey() {
+#ifdef GNOMON_TEST_WITH_KEY
+    return testKey();
+#else
+    return {};
+#endif
+}
+
 /// What a server saw.
 struct Seen {
     std::vector<std::uint64_t> snapshots = {};
@@ -45,6 +57,7 @@ struct TestServerOptions {
     std::function<void(field::TypeRegistry&)> types = {};  // default: testTypes()
     bool lieAboutDigest = false;
     int images = 0;  // pictures sent for a captured frame
+    SharedKey key = usualKey();
 };
 
 /// A server that renders nothing: a thread with ServerHost's main loop.
@@ -65,6 +78,8 @@ public:
     void kill();
 
     Seen seen() const;
+    /// Whether someone was turned away with this reason before eventually().
+    bool turnedAway(const std::string& why) const;
     /// Whether it became true before eventually().
     bool waitUntil(const std::function<bool(const Seen&)>& predicate) const;
     void send(const InputEvent& event);
@@ -92,13 +107,15 @@ private:
     Seen seen_;
     std::uint64_t stallAt_ = ~std::uint64_t{0};
     std::vector<InputEvent> toSend_;
+    std::vector<std::string> turnedAway_;
     std::thread thread_;
 };
 
 /// A hub with log lines kept.
 class TestHub {
 public:
-    explicit TestHub(SyncOptions options = {}, HubHooks hooks = {});
+    explicit TestHub(SyncOptions options = {}, HubHooks hooks = {},
+                     const SharedKey& key = usualKey());
     ClientHub* operator->() { return hub_.get(); }
     field::TypeRegistry& types() { return types_; }
     std::vector<std::string> log() const;

@@ -48,7 +48,8 @@ TEST_P(AcneGLTest, AClosedSphereHasNone) {
     add(painted.node, quad({-8.0F, 0.0F, 8.0F}, {16.0F, 0.0F, 0.0F}, {0.0F, 0.0F, -16.0F}));
     const View eye = seen(perspectiveView({0.0, 2.0, 6.0}, {0.0, 1.2, 0.0}), 256, 256, 512);
     const auto made = both(eye, sun.node);
-    EXPECT_EQ(made.error.interior, 0U);
+    // At its outline the mean of the depths is not that of any plane.
+    EXPECT_LE(made.error.interior, GetParam().filter.bleeds ? 8U : 0U);
     EXPECT_LT(made.error.share(made.error.wrong), 0.01);
 }
 
@@ -60,7 +61,8 @@ TEST_P(AcneGLTest, AnOpenSphereHasNone) {
     add(painted.node, quad({-8.0F, 0.0F, 8.0F}, {16.0F, 0.0F, 0.0F}, {0.0F, 0.0F, -16.0F}));
     const View eye = seen(perspectiveView({0.0, 2.0, 6.0}, {0.0, 1.2, 0.0}), 256, 256, 512);
     const auto made = both(eye, sun.node);
-    EXPECT_EQ(made.error.interior, 0U);
+    // At its outline the mean of the depths is not that of any plane.
+    EXPECT_LE(made.error.interior, GetParam().filter.bleeds ? 8U : 0U);
     EXPECT_LT(made.error.share(made.error.wrong), 0.01);
 }
 

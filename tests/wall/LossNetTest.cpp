@@ -92,7 +92,9 @@ TEST_F(Loss, AnInterruptWhileStartingEndsQuickly) {
     // Two servers on one host and port are refused: the second gets another one.
     lines.replace(lines.rfind("7430"), 4, "7431");
     const auto far = folder.write("far.toml", lines);
-    Program run{{"run", far, "--backend", "none"}};
+    Program keygen{{"keygen", "--out", folder.path("cluster.key")}};
+    ASSERT_EQ(keygen.wait(), 0);
+    Program run{{"run", far, "--backend", "none", "--key", folder.path("cluster.key")}};
     ASSERT_TRUE(run.says("waiting for " + names[0])) << run.output();
     const auto begun = std::chrono::steady_clock::now();
     run.signal(SIGINT);

@@ -13,16 +13,18 @@
 namespace gnomon::wall {
 namespace {
 
-Child startGnomon(std::vector<std::string> arguments, std::vector<std::string> environment) {
-    arguments.insert(arguments.begin(), GNOMON_BIN_DIR "/gnomon");
+Child startGnomon(std::vector<std::string> arguments, std::vector<std::string> environment,
+                  const std::string& name) {
+    arguments.insert(arguments.begin(), GNOMON_BIN_DIR "/" + name);
     return orThrow(
         Child::start({.arguments = std::move(arguments), .environment = std::move(environment)}));
 }
 
 }  // namespace
 
-Program::Program(std::vector<std::string> arguments, std::vector<std::string> environment)
-    : child_{startGnomon(std::move(arguments), std::move(environment))},
+Program::Program(std::vector<std::string> arguments, std::vector<std::string> environment,
+                 const std::string& name)
+    : child_{startGnomon(std::move(arguments), std::move(environment), name)},
       outputReader_{[this] { read(child_.output(), output_); }},
       errorReader_{[this] { read(child_.errors(), errors_); }} {}
 

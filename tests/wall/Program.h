@@ -18,10 +18,11 @@ using namespace std::chrono_literals;
 /// Longer than anything here takes on a busy machine; nothing waits for it that goes well.
 inline constexpr auto patience = 60s;
 
-/// `gnomon` with arguments, as a process whose lines we read.
+/// `gnomon`, or another of our programs, with arguments: a process whose lines we read.
 class Program {
 public:
-    explicit Program(std::vector<std::string> arguments, std::vector<std::string> environment = {});
+    explicit Program(std::vector<std::string> arguments, std::vector<std::string> environment = {},
+                     const std::string& name = "gnomon");
     /// Ends it, if it has not ended.
     ~Program();
     Program(const Program&) = delete;

@@ -1,6 +1,7 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 
 #include "WallTest.h"
 
@@ -16,6 +17,11 @@ protected:
         ASSERT_EQ(errors.size(), 1U) << testing::PrintToString(errors);
         for (const auto& part : parts)
             EXPECT_NE(errors[0].find(part), std::string::npos) << errors[0];
+    }
+    /// The second server where nobody is, by RFC 5737.
+    std::string farWall() const {
+        auto lines = text("timeout = 0.2\nstart_timeout = 1.0", "host = \"127.0.0.1\"");
+        return lines.replace(lines.rfind("127.0.0.1"), 9, "192.0.2.1");
     }
 };
 
@@ -72,11 +78,36 @@ TEST_F(Refusal, OfServersThatCannotStart) {
 }
 
 TEST_F(Refusal, OfServersThatDoNotAnswer) {
-    // Port 1 of this machine, by its name from outside: nobody listens there.
-    auto lines = text("timeout = 0.2\nstart_timeout = 1.0", "host = \"127.0.0.1\"");
-    lines.replace(lines.rfind("127.0.0.1"), 9, "192.0.2.1");
-    Program run{{"run", folder.write("far.toml", lines), "--backend", "none"}};
+    Program keygen{{"keygen", "--out", folder.path("cluster.key")}};
+    ASSERT_EQ(keygen.wait(), 0);
+    Program run{{"run", folder.write("far.toml", farWall()), "--backend", "none", "--key",
+                 folder.path("cluster.key")}};
     expectEnd(run, 1, {names[1], "192.0.2.1:7430"});
+}
+
+TEST_F(Refusal, OfOtherComputersWithoutAKey) {
+    const auto home = "XDG_CONFIG_HOME=" + folder.path("nobody");
+    Program run{{"run", folder.write("far.toml", farWall()), "--backend", "none"}, {home}};
+    expectEnd(run, 1, {"far.toml:", names[1], "192.0.2.1", "cluster key", "gnomon keygen"});
+    Program missing{{"run", file, "--backend", "none", "--key", folder.path("none.key")}};
+    expectEnd(missing, 1, {"none.key: cannot read the cluster key"});
+    Program server{{"--name", names[0], "--listen", "0.0.0.0:0", "--backend", "none"},
+                   {home},
+                   "gnomon-server"};
+    expectEnd(server, 1, {"cannot listen on 0.0.0.0", "cluster key", "gnomon keygen"});
+}
+
+TEST_F(Refusal, OfAKeyThatOthersMayRead) {
+    const auto key = folder.path("cluster.key");
+    Program keygen{{"keygen", "--out", key}};
+    ASSERT_EQ(keygen.wait(), 0);
+    Program again{{"keygen", "--out", key}};
+    expectEnd(again, 1, {"cluster.key: is there already"});
+    ASSERT_EQ(::chmod(key.c_str(), 0644), 0);
+    Program run{{"run", file, "--backend", "none", "--key", key}};
+    expectEnd(run, 1, {"cluster.key: others may read", "chmod 600"});
+    Program server{{"--name", names[0], "--backend", "none", "--key", key}, {}, "gnomon-server"};
+    expectEnd(server, 1, {"cluster.key: others may read", "chmod 600"});
 }
 
 TEST_F(Refusal, OfWrongUsage) {

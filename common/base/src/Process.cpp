@@ -11,7 +11,9 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <sstream>
 #include <utility>
 
 namespace gnomon {
@@ -24,9 +26,9 @@ void closeFd(int& fd) noexcept {
 std::error_code lastError() { return {errno, std::generic_category()}; }
 
 /// What runs in the child between fork and exec: async-signal-safe calls only.
-[[noreturn]] void becomeProgram(const ChildOptions& options, char* const* arguments,
-                                char* const* environment, int in, int out, int err, int report,
-                                pid_t parent) {
+[[noreturn]] void becomeProgram(const ChildOptions& options, const char* program,
+                                char* const* arguments, char* const* environment, int in, int out,
+                                int err, int report, pid_t parent) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(127);  // the parent died before prctl took hold
     ::dup2(out, STDOUT_FILENO);
@@ -42,10 +44,23 @@ std::error_code lastError() { return {errno, std::generic_category()}; }
         const rlimit limit{seconds, seconds + 1};
         ::setrlimit(RLIMIT_CPU, &limit);
     }
-    ::execve(arguments[0], arguments, environment);
+    ::execve(program, arguments, environment);
     const int code = errno;
     [[maybe_unused]] const auto written = ::write(report, &code, sizeof code);
     ::_exit(127);
+}
+
+/// Where a program lies that is only named: in a folder of PATH, never in the current one. Empty
+/// where it is not found.
+std::string found(const std::string& program) {
+    if (program.find('/') != std::string::npos) return program;
+    const char* path = std::getenv("PATH");
+    std::istringstream folders{path == nullptr ? "" : path};
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        auto candidate = folder + "/" + program;
+        if (!folder.empty() && ::access(candidate.c_str(), X_OK) == 0) return candidate;
+    }
+    return {};
 }
 
 }  // namespace
@@ -58,10 +73,13 @@ std::filesystem::path programFolder() {
 
 Result<Child> Child::start(const ChildOptions& options) {
     GNOMON_EXPECTS(!options.arguments.empty(), "a program needs a name");
+    const std::string program = found(options.arguments[0]);
+    if (program.empty())
+        return fail(Errc::process, "cannot start " + options.arguments[0] + ": not found in PATH");
     std::array<int, 2> out{-1, -1};
     std::array<int, 2> err{-1, -1};
-    std::array<int, 2> report{-1, -1};
     std::array<int, 2> in{-1, -1};  // ours, the child's
+    std::array<int, 2> report{-1, -1};
     const auto closeAll = [&] {
         for (auto* pipe : {&out, &err, &report, &in})
             for (int& fd : *pipe) closeFd(fd);
@@ -96,13 +114,10 @@ Result<Child> Child::start(const ChildOptions& options) {
     const pid_t parent = ::getpid();
     const pid_t pid = ::fork();
     if (pid == 0)
-        becomeProgram(options, arguments.data(), environment.data(), in[1], out[1], err[1],
-                      report[1], parent);
+        becomeProgram(options, program.c_str(), arguments.data(), environment.data(), in[1], out[1],
+                      err[1], report[1], parent);
     const auto forkError = lastError();
-    closeFd(out[1]);
-    closeFd(err[1]);
-    closeFd(in[1]);
-    closeFd(report[1]);
+    for (int* fd : {&in[1], &out[1], &err[1], &report[1]}) closeFd(*fd);
     if (pid < 0) {
         closeAll();
         return fail(Errc::process, "cannot fork for " + options.arguments[0], forkError);

@@ -84,6 +84,7 @@ Result<Config> withTileSize(const Config& config, int width, int height) {
 
 Config localized(const Config& config) {
     Config result = arranged(config);
+    result.cluster = {};
     for (Server& server : result.servers) {
         server.host = "localhost";
         server.port = 0;

@@ -23,6 +23,20 @@ std::string_view name(DepthRange use) noexcept {
     return use == DepthRange::off ? "off" : use == DepthRange::previous ? "previous" : "exact";
 }
 
+std::string_view name(Launch how) noexcept {
+    switch (how) {
+        case Launch::none:
+            return "none";
+        case Launch::ssh:
+            return "ssh";
+        case Launch::slurm:
+            return "slurm";
+        case Launch::mpi:
+            return "mpi";
+    }
+    return "?";
+}
+
 std::string_view name(OnTimeout action) noexcept {
     return action == OnTimeout::drop ? "drop" : "wait";
 }
@@ -47,10 +61,21 @@ bool isLocal(std::string_view host) {
 
 int gpuOf(const Server& server, const Window& window) { return window.gpu.value_or(server.gpu); }
 
+namespace {
+
+/// What is named in the configuration is looked for beside its file; an absolute path stays.
+std::string beside(const Origin& origin, const std::string& name) {
+    return (std::filesystem::path{origin.table.file}.parent_path() / name).string();
+}
+
+}  // namespace
+
 std::string imagePath(const Foreground& foreground) {
-    // Joining keeps an absolute path as it is.
-    const std::filesystem::path file{foreground.origin.table.file};
-    return (file.parent_path() / foreground.image).string();
+    return beside(foreground.origin, foreground.image);
+}
+
+std::string keyPath(const Cluster& cluster) {
+    return cluster.key ? beside(cluster.origin, *cluster.key) : std::string{};
 }
 
 }  // namespace gnomon::config

@@ -30,6 +30,7 @@ public:
         read(root, config, "");
         single(root, config.user, "user");
         single(root, config.sync, "sync");
+        single(root, config.cluster, "cluster");
         single(root, config.shadow, "shadow");
         if (const Node* node = table(root, "render")) {
             read(*node, config.render, "render");
@@ -208,6 +209,7 @@ std::vector<std::string> knownKeys() {
     addKeys<Config>(keys);
     addKeys<User>(keys);
     addKeys<Sync>(keys);
+    addKeys<Cluster>(keys);
     addKeys<Shadow>(keys);
     addKeys<Render>(keys);
     addKeys<Foreground>(keys);

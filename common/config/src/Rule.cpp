@@ -83,6 +83,11 @@ std::string hostExpectation(std::string_view value) {
     return good ? std::string{} : "must be a host name or an IP address";
 }
 
+std::string programExpectation(std::string_view value) {
+    if (value.starts_with('-')) return "must be a program, and not begin with '-'";
+    return titleExpectation(value);
+}
+
 std::string techniqueExpectation(std::string_view value) {
     if (has(alone, value) || has(fits, value) || has(filtersAlone, value)) return {};
     const std::size_t plus = value.find('+');

@@ -38,6 +38,7 @@ std::string brokenText(std::string_view subject, std::string_view key, std::stri
 std::string nameExpectation(std::string_view value);       ///< of servers and screens
 std::string titleExpectation(std::string_view value);      ///< any text on one line, not empty
 std::string hostExpectation(std::string_view value);       ///< host name or address
+std::string programExpectation(std::string_view value);    ///< a path or a name, no option
 std::string techniqueExpectation(std::string_view value);  ///< FIT[+FILTER] or a word
 std::string samplesExpectation(double value);
 std::string rectExpectation(double value);  ///< a share up to 1, or whole pixels
@@ -46,6 +47,7 @@ inline std::string expectation(const Rule&, bool) { return {}; }
 inline std::string expectation(const Rule&, Eye) { return {}; }
 inline std::string expectation(const Rule&, OnTimeout) { return {}; }
 inline std::string expectation(const Rule&, DepthRange) { return {}; }
+inline std::string expectation(const Rule&, Launch) { return {}; }
 inline std::string expectation(const Rule& rule, int v) { return rule.expectation(double(v)); }
 inline std::string expectation(const Rule& rule, double v) { return rule.expectation(v); }
 inline std::string expectation(const Rule& rule, const std::string& v) {

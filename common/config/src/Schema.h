@@ -64,6 +64,18 @@ struct Schema<Sync> {
 };
 
 template <>
+struct Schema<Cluster> {
+    static constexpr std::string_view path = "cluster";
+    static constexpr std::array<std::string_view, 0> nested = {};
+    static constexpr std::tuple fields{
+        Field{"key", &Cluster::key, Rule{.text = titleExpectation}},
+        Field{"launch", &Cluster::launch, anything},
+        Field{"server", &Cluster::server, Rule{.text = programExpectation}},
+        Field{"options", &Cluster::options, Rule{.text = titleExpectation}},
+    };
+};
+
+template <>
 struct Schema<Shadow> {
     static constexpr std::string_view path = "shadow";
     static constexpr std::array<std::string_view, 0> nested = {};
@@ -182,8 +194,8 @@ struct Schema<ServerGrid> {
 template <>
 struct Schema<Config> {
     static constexpr std::string_view path = "";
-    static constexpr std::array<std::string_view, 7> nested = {
-        "user", "sync", "shadow", "render", "screen", "server", "server_grid"};
+    static constexpr std::array<std::string_view, 8> nested = {
+        "user", "sync", "cluster", "shadow", "render", "screen", "server", "server_grid"};
     static constexpr std::tuple fields{
         Field{"name", &Config::name, Rule{.text = titleExpectation}},
     };

@@ -22,6 +22,7 @@ inline std::string tomlText(const std::string& value) { return tomlText(std::str
 inline std::string tomlText(Eye value) { return tomlText(name(value)); }
 inline std::string tomlText(OnTimeout value) { return tomlText(name(value)); }
 inline std::string tomlText(DepthRange value) { return tomlText(name(value)); }
+inline std::string tomlText(Launch value) { return tomlText(name(value)); }
 
 namespace detail {
 std::string bracketed(const std::vector<std::string>& parts);

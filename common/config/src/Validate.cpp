@@ -94,6 +94,12 @@ std::vector<Finding> validate(const Sync& sync) {
     return findings;
 }
 
+std::vector<Finding> validate(const Cluster& cluster) {
+    std::vector<Finding> findings;
+    checkFields(cluster, "cluster", findings);
+    return findings;
+}
+
 std::vector<Finding> validate(const Shadow& shadow) {
     std::vector<Finding> findings;
     checkFields(shadow, "shadow", findings);
@@ -173,6 +179,7 @@ std::vector<Finding> validate(const Config& config) {
     checkFields(config, "", all);
     add(validate(config.user));
     add(validate(config.sync));
+    add(validate(config.cluster));
     add(validate(config.shadow));
     add(validate(config.render));
     for (const Screen& screen : config.screens) add(validate(screen));

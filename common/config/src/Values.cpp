@@ -64,6 +64,10 @@ std::string read(const Node& node, DepthRange& value) {
                     value);
 }
 
+std::string read(const Node& node, Launch& value) {
+    return readWord(node, std::array{Launch::none, Launch::ssh, Launch::slurm, Launch::mpi}, value);
+}
+
 std::string read(const Node& node, OnTimeout& value) {
     return readWord(node, std::array{OnTimeout::drop, OnTimeout::wait}, value);
 }
@@ -100,6 +104,17 @@ std::string read(const Node& node, std::vector<Eye>& value) {
         if (!read(node.items[i], eyes[i]).empty()) return wrong;
     }
     value = std::move(eyes);
+    return {};
+}
+
+std::string read(const Node& node, std::vector<std::string>& value) {
+    std::string wrong = "a list of texts in quotes";
+    if (node.kind != Node::Kind::list) return wrong;
+    std::vector<std::string> texts(node.items.size());
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        if (!read(node.items[i], texts[i]).empty()) return wrong;
+    }
+    value = std::move(texts);
     return {};
 }
 

@@ -20,11 +20,13 @@ std::string read(const Node& node, std::string& value);
 std::string read(const Node& node, Eye& value);
 std::string read(const Node& node, OnTimeout& value);
 std::string read(const Node& node, DepthRange& value);
+std::string read(const Node& node, Launch& value);
 /// Two colours, top and bottom, or one for both.
 std::string read(const Node& node, std::array<Colour, 2>& value);
 /// One number or a list.
 std::string read(const Node& node, std::vector<int>& value);
 std::string read(const Node& node, std::vector<Eye>& value);
+std::string read(const Node& node, std::vector<std::string>& value);
 
 /// @p elements: "whole numbers"
 std::string listExpectation(std::size_t count, const char* elements);

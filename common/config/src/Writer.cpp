@@ -52,6 +52,7 @@ std::string toToml(const Config& config) {
     writer.top(config);
     writer.optionalTable("[user]", config.user);
     writer.optionalTable("[sync]", config.sync);
+    writer.optionalTable("[cluster]", config.cluster);
     writer.optionalTable("[shadow]", config.shadow);
     writer.optionalTable("[render]", config.render);
     if (config.render.foreground) writer.table("[render.foreground]", *config.render.foreground);

@@ -17,6 +17,7 @@ struct ApplicationOptions {
     std::optional<config::Cells> tileSize = {};  ///< pixels of every tile; absent: the config's
     std::string backend = "auto";                ///< of local servers: egl osmesa glfw none auto
     std::filesystem::path server = {};  ///< empty: gnomon-server beside the running program
+    std::filesystem::path key = {};     ///< cluster key file; empty: the config's, or the usual one
     /// Container types of the application's own.
     std::function<void(field::TypeRegistry&)> addTypes = {};
     LogCallback log = {};

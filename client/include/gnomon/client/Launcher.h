@@ -14,9 +14,10 @@
 
 namespace gnomon::client {
 
-/// One server as a process on this machine.
+/// One server as a process on this machine, or the process that keeps it running on another one.
 struct LaunchCommand {
     std::string server = {};                    ///< its name
+    std::string host = "127.0.0.1";             ///< where it will listen
     std::vector<std::string> arguments = {};    ///< arguments[0] is the program
     std::vector<std::string> environment = {};  ///< `NAME=value`, added to ours
 
@@ -24,12 +25,17 @@ struct LaunchCommand {
     std::string text() const;
 };
 
-/// What servers of this machine a config asks for.
-/// @param program  empty: gnomon-server in the folder of the running program
-/// @param cores    threads that can run at once here; servers share them
+struct LaunchSettings {
+    std::filesystem::path program = {};  ///< of local servers; empty: beside the running program
+    std::string backend = "auto";
+    unsigned cores = 1;  ///< threads that can run at once here; local servers share them
+    std::filesystem::path key = {};     ///< cluster key of local servers; empty: none
+    std::filesystem::path farKey = {};  ///< of those on other machines; empty: their usual one
+};
+
+/// What is started for a config: its local servers and, where it says how, those elsewhere.
 std::vector<LaunchCommand> launchCommands(const config::Config& config,
-                                          const std::filesystem::path& program,
-                                          std::string_view backend, unsigned cores);
+                                          const LaunchSettings& settings);
 
 /// Worker threads of Mesa's software rasterizer for each of @p servers on @p cores: 0 (everything
 /// in the server's own thread) where there are as many servers as cores.
@@ -38,12 +44,12 @@ unsigned rasterizerThreads(unsigned servers, unsigned cores) noexcept;
 struct LauncherOptions {
     std::vector<LaunchCommand> commands = {};
     LogCallback log = {};  ///< also the servers' own lines, each with the server's name before it
-    /// A server listens on this port of 127.0.0.1, for the first time or again. On the launcher's
+    /// A server listens on this port of its host, for the first time or again. On the launcher's
     /// thread.
     std::function<void(const std::string& server, std::uint16_t port)> listening = {};
 };
 
-/// Starts local servers all at once, starts one again that dies (after 100 ms, doubling to 5 s),
+/// Starts servers all at once, starts one again that dies (after 100 ms, doubling to 5 s),
 /// and ends them all with itself. They also end with this process, however it ends: a thread of
 /// the launcher's own is their parent for as long as it lives.
 class Launcher {

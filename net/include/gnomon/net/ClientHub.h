@@ -2,6 +2,7 @@
 
 #include <gnomon/base/Error.h>
 #include <gnomon/field/Type.h>
+#include <gnomon/net/ClusterKey.h>
 #include <gnomon/net/HubTypes.h>
 
 #include <chrono>
@@ -22,7 +23,10 @@ public:
     using Deadline = std::chrono::steady_clock::time_point;
 
     /// @param types  complete: read by the hub's thread from now on, so nothing may be added.
-    ClientHub(const field::TypeRegistry& types, SyncOptions options, HubHooks hooks);
+    /// @param key    of the cluster: every server must have it, and all is sealed by TLS. Null:
+    ///               only servers on loopback addresses are spoken to, in the clear.
+    ClientHub(const field::TypeRegistry& types, SyncOptions options, HubHooks hooks,
+              const SharedKey& key = {});
     /// As shutdown().
     ~ClientHub();
     ClientHub(const ClientHub&) = delete;

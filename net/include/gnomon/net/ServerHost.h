@@ -2,10 +2,12 @@
 
 #include <gnomon/base/Error.h>
 #include <gnomon/field/Type.h>
+#include <gnomon/net/ClusterKey.h>
 #include <gnomon/net/ServerEvent.h>
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -17,11 +19,17 @@ struct ServerOptions {
     std::string name = {};
     std::string description = {};  ///< for people: renderer, windows
     bool exitWithClient = false;   ///< Quit after the client left
+    /// Of the cluster: clients without it get nowhere. Null: in the clear, on loopback only.
+    SharedKey key = {};
+    /// From the connection to the client's Hello, TLS included.
     std::chrono::milliseconds handshakeTimeout{5000};
     /// A client that sends nothing for so long is gone. (It pings several times a second.)
     std::chrono::milliseconds silentTimeout{30000};
     /// Most bytes of payloads kept for a session.
     std::uint64_t payloadBudget = std::uint64_t{16} << 30U;
+    /// Told about everyone who was turned away, once a second at most, for people who run the
+    /// server. From any thread.
+    std::function<void(const std::string&)> turnedAway = {};
 };
 
 /// The server's end: takes one client at a time and hands its frames to the main thread.
@@ -34,8 +42,7 @@ public:
     /// Listens at once.
     /// @param types  learns the client's types within next(), on the calling thread.
     /// @throws Failure Errc::config: the address is malformed or taken, or is not a loopback one.
-    ///         The latter needs a key (which comes with TLS), or GNOMON_INSECURE=1 in the
-    ///         environment: then anybody who reaches the port can draw on this wall.
+    ///         The latter needs a key.
     ServerHost(ServerOptions options, field::TypeRegistry& types);
     ~ServerHost();
     ServerHost(const ServerHost&) = delete;

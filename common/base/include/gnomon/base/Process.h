@@ -16,12 +16,14 @@ std::filesystem::path programFolder();
 
 /// How a child process starts. It dies with its parent (PR_SET_PDEATHSIG), so none is orphaned.
 struct ChildOptions {
-    std::vector<std::string> arguments = {};        ///< arguments[0] is the program's path
+    std::vector<std::string> arguments = {};        ///< arguments[0]: path, or a name found in PATH
     std::vector<std::string> environment = {};      ///< `NAME=value`, added to ours
     std::optional<std::uint64_t> memoryLimit = {};  ///< address space, bytes
     std::optional<std::chrono::seconds> cpuLimit = {};
     bool keepStderr = false;  ///< true: stderr is ours; false: it is read from errors()
-    bool takesInput = false;  ///< true: what is written to input() is its stdin; false: it has none
+    /// true: what is written to input() is its standard input, which ends with the Child, or with
+    /// us; false: it has none
+    bool takesInput = false;
 };
 
 /// A started program whose standard output we read. Killed, and waited for, when destroyed.

@@ -11,8 +11,8 @@ namespace gnomon::config {
 Result<Config> withTileSize(const Config& config, int width, int height);
 
 /// The same wall as local processes: every host is localhost, with a port and a GPU of the
-/// system's choice, no full screen, windows arranged(), and timeouts of at least a quarter of a
-/// second a server for a frame and ten seconds a server for the start.
+/// system's choice, no [cluster], no full screen, windows arranged(), and timeouts of at least a
+/// quarter of a second a server for a frame and ten seconds a server for the start.
 Config localized(const Config& config);
 
 /// Windows placed on the desktop as their tiles lie on the wall: screens side by side, of each

@@ -25,10 +25,12 @@ using Cells = std::array<int, 2>;      ///< x then y: columns and rows, or width
 enum class Eye : std::uint8_t { mono, left, right };
 enum class OnTimeout : std::uint8_t { drop, wait };
 enum class DepthRange : std::uint8_t { off, previous, exact };
+enum class Launch : std::uint8_t { none, ssh, slurm, mpi };
 
 std::string_view name(Eye eye) noexcept;
 std::string_view name(OnTimeout action) noexcept;
 std::string_view name(DepthRange use) noexcept;
+std::string_view name(Launch how) noexcept;
 
 /// Port of a server on another machine unless the file says otherwise.
 inline constexpr int defaultPort = 7430;
@@ -48,6 +50,16 @@ struct Sync {
     int pipeline = 1;  ///< frames in flight
     Origin origin = {};
     bool operator==(const Sync&) const = default;
+};
+
+/// How other machines are reached. What is on this machine is started without any of it.
+struct Cluster {
+    std::optional<std::string> key = {};    ///< as written; see keyPath(). Absent: the usual file
+    Launch launch = Launch::none;           ///< none: the servers are running already
+    std::string server = "gnomon-server";   ///< the program over there
+    std::vector<std::string> options = {};  ///< for ssh, srun or mpirun, before anything else
+    Origin origin = {};
+    bool operator==(const Cluster&) const = default;
 };
 
 struct Shadow {
@@ -138,6 +150,7 @@ struct Config {
     std::string name = "wall";
     User user = {};
     Sync sync = {};
+    Cluster cluster = {};
     Shadow shadow = {};
     Render render = {};
     std::vector<Screen> screens = {};
@@ -150,6 +163,7 @@ struct Config {
 /// the configuration (names, tiles, eyes) is in findings() of Report.h.
 std::vector<Finding> validate(const User& user);
 std::vector<Finding> validate(const Sync& sync);
+std::vector<Finding> validate(const Cluster& cluster);
 std::vector<Finding> validate(const Shadow& shadow);
 std::vector<Finding> validate(const Render& render);
 std::vector<Finding> validate(const Screen& screen);
@@ -166,5 +180,7 @@ int gpuOf(const Server& server, const Window& window);
 
 /// An image named in the configuration is looked for beside its file.
 std::string imagePath(const Foreground& foreground);
+/// So is the key. Empty where none is named.
+std::string keyPath(const Cluster& cluster);
 
 }  // namespace gnomon::config
