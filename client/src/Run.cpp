@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 #include <gnomon/client/CameraPath.h>
+#include <gnomon/config/Layout.h>
 #include <gnomon/config/Load.h>
 #include <gnomon/config/Report.h>
 #include <gnomon/image/Png.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -23,6 +25,25 @@ using Clock = std::chrono::steady_clock;
 constexpr double framesPerSecond = 60.0;  // of a run with --frames: what it shows does not depend
                                           // on how fast it is
 
+/// Puts in place of auto what is best here, for a whole screen on the pixels of a tile.
+void measureTechnique(config::Config& wall, const RunOptions& options, Console& console) {
+    if (!options.choose || options.dryRun || options.scene.empty() || wall.screens.empty()) return;
+    ShotOptions shot{.scene = options.scene,
+                     .view = options.view,
+                     .lights = options.lights,
+                     .shadow = options.shadow,
+                     .wall = options.config};
+    const auto& tiles = wall.screens.front().tiles;
+    const auto canvas = orThrow(config::canvas(wall, 0));
+    const auto tile = options.tile.value_or(config::Cells{canvas.tileSize[0], canvas.tileSize[1]});
+    shot.tile = {std::max(64, tile[0] / std::max(1, tiles[0])),
+                 std::max(64, tile[1] / std::max(1, tiles[1]))};
+    const Choice choice = options.choose(shot);
+    wall.shadow.technique = choice.chosen.technique;
+    if (choice.chosen.mapSize > 0) wall.shadow.mapSize = choice.chosen.mapSize;
+    console.line("auto: " + choice.why);
+}
+
 config::Config loadWall(const RunOptions& options, Console& console) {
     const auto inspection = orThrow(config::inspectFile(options.config));
     if (config::hasError(inspection.findings)) throw Failure{config::toError(inspection.findings)};
@@ -32,6 +53,7 @@ config::Config loadWall(const RunOptions& options, Console& console) {
     options.shadow.apply(wall.shadow);
     if (options.view.near) wall.render.near = options.view.near;
     if (options.view.far) wall.render.far = options.view.far;
+    if (wall.shadow.technique == "auto") measureTechnique(wall, options, console);
     return wall;
 }
 

@@ -5,9 +5,10 @@
 
 namespace gnomon::client {
 
-void addRun(CLI::App& program, Action& action) {
+void addRun(CLI::App& program, Action& action, std::function<Choice(const ShotOptions&)> choose) {
     auto& command = *program.add_subcommand("run", "Start the servers of a wall and drive it");
     const auto options = std::make_shared<RunOptions>();
+    options->choose = std::move(choose);
     command.add_option("CONFIG", options->config, "The wall, a TOML file")->required();
     command.add_option("--scene", options->scene, "glTF, GLB, OBJ, PLY ...")->type_name("FILE");
     command

@@ -3,7 +3,9 @@
 #include <gnomon/client/Application.h>
 
 #include <filesystem>
+#include <functional>
 
+#include "Shot.h"
 #include "ViewOptions.h"
 
 namespace gnomon::client {
@@ -24,6 +26,8 @@ struct RunOptions {
     std::filesystem::path out = {};
     std::filesystem::path json = {};
     bool dryRun = false;
+    /// What technique `auto` means, measured on what one server shows; empty: it is not measured.
+    std::function<Choice(const ShotOptions&)> choose = {};
 };
 
 /// @throws Failure

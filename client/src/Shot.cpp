@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "Calibration.h"
 #include "Console.h"
 #include "FreeView.h"
 #include "LocalSession.h"
@@ -81,7 +82,10 @@ public:
           session_{*context_,
                    [this](const std::string& t) { console_.log(LogLevel::warning, t); }} {}
 
+    void load();
     int take();
+    /// What auto means; it is used from then on. After load().
+    Choice choose();
 
 private:
     void lookFreely();
@@ -100,6 +104,8 @@ private:
     std::vector<Shown> shown_ = {};
     std::optional<config::Config> wall_ = {};
     std::string technique_ = "std";
+    Budget budget_ = {};
+    std::string why_ = {};  ///< of auto
     int mapSize_ = 0;
     render::FrameStatistics last_ = {};
     render::FrameStatistics passes_ = {};
@@ -110,6 +116,7 @@ void Shot::lookFreely() {
     config::Shadow shadow;
     options_.shadow.apply(shadow);
     technique_ = shadow.technique;
+    budget_ = budgetOf(shadow);
     const auto size = options_.view.size.value_or(defaultViewSize);
     mapSize_ = shadow.mapSize.value_or(scene::mapSizeFor({size[0], size[1]}));
     const auto window = addFreeView(
@@ -127,6 +134,7 @@ void Shot::lookAsWall() {
     if (options_.view.far) wall.render.far = options_.view.far;
     options_.shadow.apply(wall.shadow);
     technique_ = wall.shadow.technique;
+    budget_ = budgetOf(wall.shadow);
     field::Aspect& aspect = session_.aspect();
     const Look look = options_.view.look().value_or(
         defaultView(aspect, scene_, wallOpening(wall), wallDistance(wall)).look);
@@ -259,6 +267,7 @@ void Shot::writeJson() const {
     std::sort(sorted.begin(), sorted.end());
     nlohmann::ordered_json json{
         {"technique", technique_}, {"map_size", mapSize_}, {"renderer", context_->renderer()}};
+    if (!why_.empty()) json["auto"] = why_;
     if (!sorted.empty()) {
         json["frame_ms"] = {
             {"median", sorted[sorted.size() / 2]}, {"min", sorted.front()}, {"max", sorted.back()}};
@@ -285,7 +294,7 @@ void Shot::writeJson() const {
     writeText(options_.json, json.dump(2) + "\n");
 }
 
-int Shot::take() {
+void Shot::load() {
     scene_ = loadScene(session_.aspect(), console_,
                        {.file = options_.scene,
                         .lights = options_.lights,
@@ -295,6 +304,23 @@ int Shot::take() {
     else
         lookAsWall();
     session_.commit();
+}
+
+Choice Shot::choose() {
+    std::vector<Ref<scene::Window>> windows;
+    for (const Shown& shown : shown_) windows.push_back(shown.window);
+    return calibrate(session_, windows, budget_, console_);
+}
+
+int Shot::take() {
+    load();
+    if (technique_ == "auto") {
+        const Choice choice = choose();
+        technique_ = choice.chosen.technique;
+        mapSize_ = choice.chosen.mapSize;
+        why_ = choice.why;
+        console_.line("auto: " + why_);
+    }
     last_ = draw();
     writePictures();
     writeFactor();
@@ -306,5 +332,10 @@ int Shot::take() {
 }  // namespace
 
 int takeShot(const ShotOptions& options) { return Shot{options}.take(); }
+Choice chooseTechnique(const ShotOptions& options) {
+    Shot shot{options};
+    shot.load();
+    return shot.choose();
+}
 
 }  // namespace gnomon::client

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "AutoTechnique.h"
 #include "ViewOptions.h"
 
 namespace gnomon::client {
@@ -31,5 +32,7 @@ struct ShotOptions {
 
 /// One process, one picture. @throws Failure
 int takeShot(const ShotOptions& options);
+/// What technique `auto` means for what would be shot. @throws Failure
+Choice chooseTechnique(const ShotOptions& options);
 
 }  // namespace gnomon::client

@@ -211,6 +211,8 @@ void ShadowArguments::apply(config::Shadow& shadow) const {
     }
     if (mapSize) shadow.mapSize = *mapSize;
     if (depthRange) shadow.depthRange = *depthRange;
+    if (frameBudget) shadow.frameBudget = frameBudget;
+    if (errorBudget) shadow.errorBudget = errorBudget;
 }
 
 void addShadowOptions(CLI::App& command, ShadowArguments& shadow) {
@@ -235,6 +237,13 @@ void addShadowOptions(CLI::App& command, ShadowArguments& shadow) {
             shadow.mapSize = *size;
         },
         "Texels a side of a shadow map", "N");
+    command
+        .add_option("--frame-budget", shadow.frameBudget, "Milliseconds a frame that auto keeps to")
+        ->type_name("MS")
+        ->check(CLI::Range(1e-3, 1e6));
+    command.add_option("--error-budget", shadow.errorBudget, "Error that auto keeps to, percent")
+        ->type_name("PERCENT")
+        ->check(CLI::Range(1e-6, 100.0));
     addText(
         command, "--depth-range",
         [&shadow](const std::string& text) {

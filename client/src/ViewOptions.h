@@ -39,6 +39,8 @@ struct ShadowArguments {
     std::optional<std::string> technique = {};
     std::optional<int> mapSize = {};
     std::optional<config::DepthRange> depthRange = {};
+    std::optional<double> frameBudget = {};  ///< milliseconds
+    std::optional<double> errorBudget = {};  ///< percent
 
     /// Puts what was given in place of the config's.
     void apply(config::Shadow& shadow) const;

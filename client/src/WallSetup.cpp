@@ -42,7 +42,8 @@ Result<WallContainers> buildWall(field::Aspect& aspect, const config::Config& co
 
 void applyShadow(const config::Shadow& from, scene::ShadowViewport& viewport) {
     viewport.shadowOn = from.on;
-    viewport.technique = from.technique;
+    // What auto means is measured before; whoever does not gets what is good in most scenes.
+    viewport.technique = from.technique == "auto" ? "lispsm" : from.technique;
     viewport.mapSize = from.mapSize.value_or(0);
     viewport.shadowColor =
         math::vec4{linearFromSrgb(from.color[0]), linearFromSrgb(from.color[1]),

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "Commands.h"
+#include "Shot.h"
 
 namespace {
 
@@ -26,7 +27,7 @@ int main(int argc, char** argv) {
     CLI::App program{"Gnomon: walls of render servers that show one scene, with shadows", "gnomon"};
     program.require_subcommand(1);
     gnomon::client::Action action;
-    gnomon::client::addRun(program, action);
+    gnomon::client::addRun(program, action, gnomon::client::chooseTechnique);
     gnomon::client::addCheck(program, action);
     gnomon::client::addKeygen(program, action);
     gnomon::client::addBench(program, action);

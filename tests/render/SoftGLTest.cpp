@@ -1,0 +1,103 @@
+// Penumbrae where closed formulas say they are, and as smooth.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "RenderFixture.h"
+
+namespace gnomon::render {
+namespace {
+
+using math::dvec3;
+
+/// A straight edge 4 m above a plane, under a sun at 45 degrees: the edge's shadow is at x = 1.
+class SoftGLTest : public RenderTest, public testing::WithParamInterface<const char*> {
+protected:
+    static constexpr double height = 4.0;
+    static constexpr double edge = -3.0;
+    static constexpr int size = 512;  // pixels of 1/32 m
+
+    /// The middle row of the factor image, 0 to 1.
+    std::vector<double> row(const std::string& technique, double angle, double softness = 0.0) {
+        const auto sun = light<scene::DirectionalLight>(root, {-5.0, 5.0, 0.0}, {0.0, 0.0, 0.0});
+        edit(sun.core)->angle = static_cast<float>(angle);
+        const auto painted = paint(sun.node, phong(math::vec3{0.8F}));
+        add(painted.node, quad({-9.0F, 0.0F, 9.0F}, {18.0F, 0.0F, 0.0F}, {0.0F, 0.0F, -18.0F}));
+        const auto y = static_cast<float>(height);
+        add(painted.node, quad({-9.0F, y, 40.0F}, {6.0F, 0.0F, 0.0F}, {0.0F, 0.0F, -80.0F}));
+        const View eye = view(topView(), size, size);
+        {
+            auto e = edit(eye.viewport);
+            e->technique = technique;
+            e->mapSize = 1024;
+            e->softness = static_cast<float>(softness);
+        }
+        const image::Image found = factor(eye, sun.node);
+        std::vector<double> values;
+        for (int x = 0; x < size; ++x) values.push_back(pixel(found, x, size / 2)[0] / 255.0);
+        return values;
+    }
+    static double placeOf(std::size_t x) { return (static_cast<double>(x) + 0.5) / 32.0 - 8.0; }
+    /// The share of a disk on one side of a line, @p t radii from its middle.
+    static double shareOfDisk(double t) {
+        const double u = std::clamp(t, -1.0, 1.0);
+        return 0.5 + (u * std::sqrt(1.0 - u * u) + std::asin(u)) / std::numbers::pi;
+    }
+    /// From half a metre beside the slab's own edge to where nothing changes any more.
+    template <class Formula>
+    static void expect(const std::vector<double>& found, Formula formula) {
+        for (std::size_t x = 1; x < found.size(); ++x) {
+            const double place = placeOf(x);
+            if (place < -2.5 || place > 4.0) continue;
+            const double right = formula(place);
+            EXPECT_NEAR(found[x], right, 0.03) << "at " << place << " m";
+            const double step = std::abs(right - formula(placeOf(x - 1)));
+            EXPECT_LE(std::abs(found[x] - found[x - 1]), step + 2.5 / 255.0)
+                << "a band at " << place << " m";
+        }
+    }
+};
+
+TEST_P(SoftGLTest, TheSunsPenumbraIsAsWideAsItsDiskAndWithoutBands) {
+    const double angle = 2.0 * std::numbers::pi / 180.0;
+    const auto found = row(std::string{GetParam()} + "+ppcf", angle);
+    expect(found, [&](double x) {
+        // How far the edge is beside the sun's middle, seen from there.
+        const double beside = std::atan2(height, x - edge) - std::numbers::pi / 4.0;
+        return shareOfDisk(-std::sin(beside) / std::sin(angle));
+    });
+}
+
+TEST_P(SoftGLTest, AKernelOfMetresIsAsWideInEveryMapAndWithoutBands) {
+    const double softness = 0.2;
+    const auto found = row(std::string{GetParam()} + "+pcf", 0.0, softness);
+    expect(found, [&](double x) { return shareOfDisk((x - 1.0) * std::sqrt(0.5) / softness); });
+}
+
+TEST_P(SoftGLTest, WithoutAnExtentItIsTheHardShadow) {
+    EXPECT_EQ(row(std::string{GetParam()} + "+ppcf", 0.0), row(GetParam(), 0.0));
+}
+
+TEST_P(SoftGLTest, MomentsAreDarkLitAndRiseBetween) {
+    for (const char* filter : {"+vsm", "+evsm"}) {
+        const auto found = row(GetParam() + std::string{filter}, 0.0, 0.2);
+        for (std::size_t x = 1; x < found.size(); ++x) {
+            const double place = placeOf(x);
+            if (place < -2.0 || place > 4.0) continue;
+            if (place < 0.2) {
+                EXPECT_LE(found[x], 0.02) << filter << " at " << place;
+            }
+            if (place > 1.8) {
+                EXPECT_GE(found[x], 0.98) << filter << " at " << place;
+            }
+            EXPECT_GE(found[x], found[x - 1] - 2.0 / 255.0) << filter << " at " << place;
+            EXPECT_LE(found[x], found[x - 1] + 0.15) << filter << " at " << place;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SoftGLTest, testing::Values("std", "trapez", "psm", "lispsm", "csm"),
+                         [](const auto& info) { return std::string{info.param}; });
+
+}  // namespace
+}  // namespace gnomon::render
