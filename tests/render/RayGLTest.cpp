@@ -54,7 +54,7 @@ TEST_F(RayGLTest, EveryPixelIsAsItsRaySays) {
 }
 
 TEST_F(RayGLTest, APointLightShinesAllRound) {
-    const dvec3 lamp{3.0, 4.0, 1.0};
+    const dvec3 lamp{3.1, 4.0, 1.3};
     const auto bulb = light<scene::PointLight>(root, lamp, {0.0, 0.0, 0.0});
     stage(bulb.node);
     EXPECT_LE(wrong(factor(traced(), bulb.node), 1.0, [&](const dvec3& p) { return lamp - p; }), 6);

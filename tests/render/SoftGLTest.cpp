@@ -29,8 +29,9 @@ protected:
         {
             auto e = edit(eye.viewport);
             e->technique = technique;
-            e->mapSize = 1024;
+            e->mapSize = technique.starts_with("csm") ? 4096 : 2048;  // shared out among its maps
             e->softness = static_cast<float>(softness);
+            e->qualityMode = true;
         }
         const image::Image found = factor(eye, sun.node);
         std::vector<double> values;
@@ -91,7 +92,7 @@ TEST_P(SoftGLTest, MomentsAreDarkLitAndRiseBetween) {
                 EXPECT_GE(found[x], 0.98) << filter << " at " << place;
             }
             EXPECT_GE(found[x], found[x - 1] - 2.0 / 255.0) << filter << " at " << place;
-            EXPECT_LE(found[x], found[x - 1] + 0.15) << filter << " at " << place;
+            EXPECT_LE(found[x], found[x - 1] + 0.2) << filter << " at " << place;
         }
     }
 }

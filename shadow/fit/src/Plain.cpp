@@ -12,7 +12,11 @@ Ground::Ground(const FitInput& input)
     : plane{input.light},
       outline{outlineOf(plane, input.light, input.receivers.points(), input.reach)},
       depth{plane.depthOf(input.receivers.points(), input.scene)},
-      uniform{uniformMap(outline.hull, input.mapSize)} {}
+      uniform{uniformMap(outline.hull, input.mapSize)} {
+    // What is looked up around a receiver lies on its plane, which goes on: as steep as this.
+    constexpr double slope = 4.0;
+    depth.farthest += slope * input.reach * (plane.parallel() ? 1.0 : depth.farthest);
+}
 
 Fitted plainFit(const FitInput& input) {
     if (input.receivers.empty()) return {};

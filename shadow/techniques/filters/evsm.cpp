@@ -10,6 +10,8 @@ namespace {
 const PyramidInfo moments{.channels = 4,
                           .texelsPerCell = 2,
                           .glsl = R"glsl(
+// Of a depth of 0.
+const vec4 nothing = vec4(exp(-20.0), exp(-40.0), -exp(20.0), exp(40.0));
 vec4 firstLevel(ivec2 cell) {
     vec4 depths = textureGather(page, vec3((vec2(cell * 2) + 2.0) * texel, layer)) - 0.5;
     vec4 up = exp(40.0 * depths), down = -exp(-40.0 * depths);
@@ -26,7 +28,7 @@ FilterInfo describe_evsm() {
             .glsl = R"glsl(
 float filteredShadow(int first, ShadowPoint point) {
     float slope = abs(point.slope.x) + abs(point.slope.y);
-    float here = max(point.place.z, 0.0) - 0.5 + slope * slackTexels;
+    float here = point.place.z - 0.5 + slope * slackTexels;
     vec4 moments = momentsAround(first, point);
     // The mean of what is convex is above what the mean makes of it: for a plane by this much.
     float across = 0.5 * slope * kernelRadius(first, point);

@@ -14,7 +14,7 @@ float filteredShadow(int first, ShadowPoint point) {
     float radius = min(shadowMaps[first].light.w / point.axial, shadowMaps[first].kernel.z);
     float texels = radius * texelsPerUnit(first, point);
     Around all = around(first, point, texels);
-    float count = all.lit || all.shadowed ? 0.0 : samplesOf(2.0 * texels);
+    float count = all.lit || all.shadowed ? 0.0 : samplesOf(first, 2.0 * texels);
     float lit = diskShadow(first, point, radius, count);
     return all.lit ? 1.0 : all.shadowed ? 0.0 : lit;
 }

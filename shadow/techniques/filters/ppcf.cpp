@@ -33,7 +33,8 @@ float filteredShadow(int first, ShadowPoint point) {
     float away = reach * sqrt(step_);
     float sum = 0.0, hides = 0.0;
     vec2 turn = vec2(1.0, 0.0);
-    float count = searching ? searches : 0.0;
+    float more = shadowMaps[first].kernel.w > 1.0 ? 32.0 : 12.0;
+    float count = searching ? searches + more : 0.0;
     for (float i = 0.0; i < count; i += 1.0) {
         ShadowPoint at = movedPoint(first, point, turn * away);
         vec2 between;
@@ -41,15 +42,21 @@ float filteredShadow(int first, ShadowPoint point) {
         vec4 depths = casters * at.w;
         vec4 cone = spread * (depths - here);
         vec4 hidden = away / max(cone, away);
-        hidden *= hidden * vec4(greaterThan(casters, max(planeAt(at, between), 0.0))) * vec4(greaterThan(cone, vec4(away - texel)));
+        vec4 above = vec4(greaterThan(casters, max(planeAt(at, between), 0.0)));
+        hidden *= hidden * above * vec4(greaterThan(cone, vec4(away - texel)));
         sum += dot(hidden, depths);
         hides += dot(hidden, vec4(1.0));
         turn = goldenTurn * turn;
         away *= step_;
+        // Nothing yet: what hides little of the light is toward the rim.
+        if (i >= searches - 1.0) {
+            away = reach * mix(0.3, 1.0, (i - searches + 1.5) / more);
+            count = hides > 0.0 ? 0.0 : count;
+        }
     }
     known = searching && hides == 0.0 ? 1.0 : known;
     float radius = hides > 0.0 ? min(spread * max(sum / hides - here, 0.0), reach) : 0.0;
-    count = known >= 0.0 ? 0.0 : samplesOf(2.0 * radius * texels);
+    count = known >= 0.0 ? 0.0 : samplesOf(first, 2.0 * radius * texels);
     return known >= 0.0 ? known : diskShadow(first, point, radius, count);
 }
 )glsl",

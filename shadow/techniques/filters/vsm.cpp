@@ -10,6 +10,8 @@ namespace {
 const PyramidInfo moments{.channels = 2,
                           .texelsPerCell = 2,
                           .glsl = R"glsl(
+// Of a depth of 0.
+const vec4 nothing = vec4(-0.5, 0.25, 0.0, 0.0);
 vec4 firstLevel(ivec2 cell) {
     vec4 depths = textureGather(page, vec3((vec2(cell * 2) + 2.0) * texel, layer)) - 0.5;
     return vec4(dot(depths, vec4(0.25)), dot(depths, depths) * 0.25, 0.0, 0.0);
@@ -25,7 +27,7 @@ FilterInfo describe_vsm() {
             .glsl = R"glsl(
 float filteredShadow(int first, ShadowPoint point) {
     float slope = abs(point.slope.x) + abs(point.slope.y);
-    float here = max(point.place.z, 0.0) - 0.5 + slope * slackTexels;
+    float here = point.place.z - 0.5 + slope * slackTexels;
     return litAtMost(momentsAround(first, point).xy, here, 3e-8 + slope * slope * 0.25);
 }
 )glsl",

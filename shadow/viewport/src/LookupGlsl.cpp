@@ -15,7 +15,8 @@ struct ShadowMap {
     vec4 light;          // x: radius of its penumbra, in units of the light's plane, by depth times w;
                          // y, z: a place's distance along its axis is y + z * depth * w (parallel: 1)
                          // w: radius of fixed kernels, metres
-    vec4 kernel;         // x: width, texels, y: samples a row; z: reach, in units of its plane
+    vec4 kernel;         // x: width, texels, y: samples a row; z: reach, in units of its plane;
+                         // w: quality, times so many samples
 };
 layout(std140, binding = 4) uniform ShadowMapBlock { ShadowMap shadowMaps[128]; };
 

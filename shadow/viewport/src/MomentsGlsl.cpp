@@ -16,9 +16,12 @@ vec4 kept(ivec2 cell) {
     if (level == 0) return texelFetch(cells, cell, 0);
     vec4 sum = vec4(0.0);
     for (int y = -1; y <= 1; ++y)
-        for (int x = -1; x <= 1; ++x)
-            sum += texelFetch(cells, clamp(cell + ivec2(x, y), ivec2(0), ivec2(side - 1)), 0) *
+        for (int x = -1; x <= 1; ++x) {
+            ivec2 at = cell + ivec2(x, y);
+            bool within = all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, ivec2(side)));
+            sum += (within ? texelFetch(cells, at, 0) : nothing) *
                    float((2 - abs(x)) * (2 - abs(y)));
+        }
     return sum / 16.0;
 }
 )glsl";
@@ -51,7 +54,9 @@ vec4 momentsAround(int first, ShadowPoint point) {
     uint layer = point.pages;
 #endif
     vec2 off = abs(point.place.xy - 0.5 * shadowMaps[first].size.x);
-    if (max(off.x, off.y) > 0.5 * shadowMaps[first].size.x) return vec4(-1e30, 1e30, -1e30, 1e30);
+    // Beyond its farthest depth, too: what is drawn there is at depth 0, not where it is.
+    if (max(off.x, off.y) > 0.5 * shadowMaps[first].size.x || point.place.z <= 0.0)
+        return vec4(-1e30, 1e30, -1e30, 1e30);
     float cells = float(textureSize(shadowMoments, 0).x);
     // Radii, in texels: 2 of the finest, then 8 and doubling.
     float octaves = log2(radius * 0.5);

@@ -45,8 +45,11 @@ Pyramid::Pyramid(const gl::Api& gl, const PyramidInfo& info, int pageSize)
       empty_{gl} {
     gl_.SamplerParameteri(sampler_.id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl_.SamplerParameteri(sampler_.id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl_.SamplerParameteri(sampler_.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl_.SamplerParameteri(sampler_.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    // Beyond a page there is nothing, as far away as can be.
+    gl_.SamplerParameteri(sampler_.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+    gl_.SamplerParameteri(sampler_.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+    const std::array<float, 4> nothing{0.0F, 0.0F, 0.0F, 0.0F};
+    gl_.SamplerParameterfv(sampler_.id(), GL_TEXTURE_BORDER_COLOR, nothing.data());
     cells_.label("cells of a shadow pyramid");
     gl_.TextureStorage2D(cells_.id(), levels_, format(), side_, side_);
     gl_.TextureParameteri(cells_.id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);

@@ -111,7 +111,7 @@ void ShadowMaps::soften(MapBlock& block, const scene::ShadowState& state,
     block.alongV = along(v, 0.0);
     const int row = state.kernelSamples > 0 ? state.kernelSamples : state.kernelWidth;
     block.kernel = {static_cast<float>(state.kernelWidth), static_cast<float>(std::max(row, 1)),
-                    state.reach, 0.0F};
+                    state.reach, state.quality};
 }
 
 struct ShadowMaps::Page {

@@ -132,9 +132,13 @@ Around around(int first, ShadowPoint point, float radius) {
 const mat2 goldenTurn = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
 
 // How many samples of a disk: one a texel across it, so that their steps, each interpolated over a
-// texel, follow each other without a gap. One where there is no disk.
-float samplesOf(float texelsAcross) {
-    return texelsAcross < 1.0 ? 1.0 : floor(clamp(texelsAcross + 4.0, 5.0, 64.0));
+// texel, follow each other without a gap; with more quality so many that none is seen. One where
+// there is no disk.
+float samplesOf(int first, float texelsAcross) {
+    float quality = shadowMaps[first].kernel.w;
+    return texelsAcross < 1.0
+               ? 1.0
+               : floor(clamp(texelsAcross * quality + 4.0, 5.0, 64.0 * quality));
 }
 
 // The share of a disk that is lit. Without samples as with one: software GL executes what is written

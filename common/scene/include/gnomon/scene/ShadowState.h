@@ -32,6 +32,7 @@ public:
     Field<float> reach;
     Field<std::int32_t> kernelWidth{8};  ///< as ShadowViewport's
     Field<std::int32_t> kernelSamples;
+    Field<float> quality{1.0F};  ///< of soft filters: times so many samples
     Field<bool> degenerate;  ///< the fit fell back to a plain one
     static constexpr auto fields() {
         return std::tuple{entry("light", &ShadowState::light),
@@ -47,6 +48,7 @@ public:
                           entry("reach", &ShadowState::reach),
                           entry("kernelWidth", &ShadowState::kernelWidth),
                           entry("kernelSamples", &ShadowState::kernelSamples),
+                          entry("quality", &ShadowState::quality),
                           entry("degenerate", &ShadowState::degenerate)};
     }
 };

@@ -107,7 +107,7 @@ public:
     Field<std::int32_t> kernelWidth{8};  ///< of square, texels
     /// Of square, a row; 0: all of its texels.
     Field<std::int32_t> kernelSamples;
-    Field<bool> qualityMode;  ///< better for more time: exact depth, larger penumbrae
+    Field<bool> qualityMode;  ///< better for more time: exact depth, more samples
     Field<DepthUse> depthRange;
     Field<float> offBias{4.0F};  ///< with overrideBias: constant offset, units of depth resolution
     Field<float> offFactor{10.0F};       ///< with overrideBias: factor of the slope
