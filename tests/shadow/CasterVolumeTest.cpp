@@ -33,7 +33,7 @@ protected:
 TEST_F(CasterVolumeTest, HoldsWhateverIsBetweenTheLightAndWhatIsSeen) {
     const std::vector<dvec3> seen{{-2.0, 0.0, -2.0}, {3.0, 0.0, -1.0}, {0.0, 1.0, 4.0}};
     SeenInMap image;
-    image.project(clipFromWorld, seen);
+    image.project(clipFromWorld, seen, {});
     CasterVolume volume;
     volume.enclose(clipFromWorld, sides(), image, 0.01);
     for (int i = 0; i < 2000; ++i) {
@@ -54,15 +54,15 @@ TEST_F(CasterVolumeTest, HoldsWhateverIsBetweenTheLightAndWhatIsSeen) {
 TEST_F(CasterVolumeTest, ServesAViewThatMovesALittleAndNoOther) {
     std::vector<dvec3> seen{{-2.0, 0.0, -2.0}, {2.0, 0.0, -2.0}, {2.0, 0.0, 2.0}, {-2.0, 0.0, 2.0}};
     SeenInMap image;
-    image.project(clipFromWorld, seen);
+    image.project(clipFromWorld, seen, {});
     CasterVolume volume;
     volume.enclose(clipFromWorld, sides(), image, 0.01);
     EXPECT_TRUE(volume.serves(image));
     for (dvec3& p : seen) p.x += 0.2;
-    image.project(clipFromWorld, seen);
+    image.project(clipFromWorld, seen, {});
     EXPECT_TRUE(volume.serves(image));
     for (dvec3& p : seen) p.x += 2.0;
-    image.project(clipFromWorld, seen);
+    image.project(clipFromWorld, seen, {});
     EXPECT_FALSE(volume.serves(image));
 }
 
@@ -71,7 +71,7 @@ TEST_F(CasterVolumeTest, WhereSomethingIsAtTheLightOnlyThePagesSidesBound) {
     const dmat4 spot = math::perspective(1.0, 1.0, 0.1, 20.0) *
                        math::lookAt({0.0, 10.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0});
     const std::vector<dvec3> seen{{0.0, 0.0, 0.0}, {0.0, 12.0, 0.0}};
-    image.project(spot, seen);
+    image.project(spot, seen, {});
     EXPECT_TRUE(image.anywhere);
     CasterVolume volume;
     const auto planes = math::frustumPlanes(spot);
