@@ -185,7 +185,8 @@ TEST_F(ShadowFitterTest, AMovedLightChangesItsMapsAlone) {
     expectApplied(server.apply(list));
     expectApplied(server.apply(session.commit(), &applied));
     ASSERT_EQ(applied.changed.size(), 1U);
-    EXPECT_EQ(applied.changed[0].mask, field::maskOf<ShadowState>("clipFromWorld"));
+    EXPECT_EQ(applied.changed[0].mask,
+              field::maskOf<ShadowState>("clipFromWorld") | field::maskOf<ShadowState>("source"));
     EXPECT_EQ(onlyState().id(), id);
     EXPECT_NE(onlyState().clipFromWorld[0], before);
 }

@@ -92,7 +92,9 @@ TEST_P(RaysGLTest, NoShadowIsLostOrMadeUp) {
         // A texel that lies across a crease is compared with the wrong plane: a line of pixels.
         ASSERT_LE(falseShadow(made.truth, made.factor, 3), 12) << "pair " << i;
     }
-    EXPECT_GT(shadowed, 200 * wanted) << "the test saw few shadows";
+    if (!GetParam().filter.bleeds) {
+        EXPECT_GT(shadowed, 200 * wanted) << "the test saw few shadows";
+    }
     EXPECT_LT(wrong / wanted, 0.02);
     if (technique() == plain()) {
         EXPECT_EQ(degenerate, 0);

@@ -19,8 +19,7 @@ constexpr std::array<std::string_view, 8> fits = {"std", "trapez", "psm",       
                                                   "csm", "cube",   "paraboloid", "sparse"};
 constexpr std::array<std::string_view, 6> filters = {"hard",   "pcf", "ppcf",
                                                      "square", "vsm", "evsm"};
-constexpr std::array<std::string_view, 5> filtersAlone = {"pcf", "ppcf", "square", "vsm",
-                                                          "evsm"};  // mean std+...
+constexpr std::array<std::string_view, 3> filtersAlone = {"pcf", "ppcf", "vsm"};  // mean std+...
 
 template <std::size_t n>
 bool has(const std::array<std::string_view, n>& words, std::string_view word) {

@@ -34,7 +34,7 @@ float filteredShadow(int first, ShadowPoint point) {
     float across = 0.5 * slope * kernelRadius(first, point);
     float up = exp(40.0 * (here + 20.0 * across * across)), down = -exp(-40.0 * here);
     // What a texel's slope and rounding make of the warped depths.
-    vec2 least = 40.0 * (0.5 * slope + 2e-5) * vec2(up, down);
+    vec2 least = 40.0 * (slope + 1e-4) * vec2(up, down);
     least *= least;
     return min(litAtMost(moments.xy, up, least.x), litAtMost(moments.zw, down, least.y));
 }

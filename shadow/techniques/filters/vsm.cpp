@@ -28,7 +28,7 @@ FilterInfo describe_vsm() {
 float filteredShadow(int first, ShadowPoint point) {
     float slope = abs(point.slope.x) + abs(point.slope.y);
     float here = point.place.z - 0.5 + slope * slackTexels;
-    return litAtMost(momentsAround(first, point).xy, here, 3e-8 + slope * slope * 0.25);
+    return litAtMost(momentsAround(first, point).xy, here, 1e-6 + slope * slope * 0.25);
 }
 )glsl",
             .shared = momentsGlsl(),

@@ -130,6 +130,7 @@ struct ShadowMaps::Frame {
     CasterSource& casters;
     Pool& pool;
     double leastTexels = 1.0;
+    bool wholePages = false;  ///< are read, whatever of them is looked up
     ShadowStatistics& done;
     SeenInMap seen = {};
     math::dmat4 firstFromWorld{1.0};  ///< of the light's first map, to its texels
@@ -203,7 +204,8 @@ void ShadowMaps::invalidate(std::span<const math::Box> moved) {
 void ShadowMaps::drawPage(Page& page, Frame& frame, const math::dmat4& decorate,
                           const math::dmat4& clipFromWorld, const scene::ShadowState& state) {
     const auto sides = math::frustumPlanes(decorate * clipFromWorld);
-    page.volume.enclose(clipFromWorld, std::span{sides}.first(4), frame.seen,
+    page.volume.enclose(clipFromWorld, std::span{sides}.first(4),
+                        frame.wholePages ? SeenInMap{.anywhere = true} : frame.seen,
                         2.0 * (frame.leastTexels + 1.0) / state.mapSize);
     if (!frame.drawing) {
         gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
@@ -320,6 +322,7 @@ ShadowStatistics ShadowMaps::prepare(std::span<const scene::ShadowState* const> 
             .casters = casters,
             .pool = pagePool,
             .leastTexels = filter == nullptr ? 1.0 : static_cast<double>(filter->leastTexels),
+            .wholePages = filter != nullptr && filter->bleeds,
             .done = done};
         for (std::uint32_t map = 0; map < maps; ++map) prepareMap(*state, map, frame);
         if (frame.drawing) {
