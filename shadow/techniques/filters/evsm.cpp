@@ -36,7 +36,8 @@ float filteredShadow(int first, ShadowPoint point) {
     // What a texel's slope and rounding make of the warped depths.
     vec2 least = 40.0 * (slope + 1e-4) * vec2(up, down);
     least *= least;
-    return min(litAtMost(moments.xy, up, least.x), litAtMost(moments.zw, down, least.y));
+    float lit = min(litAtMost(moments.xy, up, least.x), litAtMost(moments.zw, down, least.y));
+    return moments.x == unknown ? 1.0 : lit;
 }
 )glsl",
             .shared = momentsGlsl(),

@@ -28,7 +28,9 @@ FilterInfo describe_vsm() {
 float filteredShadow(int first, ShadowPoint point) {
     float slope = abs(point.slope.x) + abs(point.slope.y);
     float here = point.place.z - 0.5 + slope * slackTexels;
-    return litAtMost(momentsAround(first, point).xy, here, 1e-6 + slope * slope * 0.25);
+    vec4 moments = momentsAround(first, point);
+    float lit = litAtMost(moments.xy, here, 1e-6 + slope * slope * 0.25);
+    return moments.x == unknown ? 1.0 : lit;
 }
 )glsl",
             .shared = momentsGlsl(),

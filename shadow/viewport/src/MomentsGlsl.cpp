@@ -37,6 +37,9 @@ float kernelRadius(int first, ShadowPoint point) {
     return max(radius * texelsPerUnit(first, point), 2.0);
 }
 
+// Where nothing was drawn, and all is lit.
+const float unknown = 1e30;
+
 // Moments over the kernel: the level whose cells, with what is blurred and interpolated of them, are
 // as wide.
 vec4 momentsAround(int first, ShadowPoint point) {
@@ -49,14 +52,14 @@ vec4 momentsAround(int first, ShadowPoint point) {
     uint entry = point.pages + page.y * pages + page.x;
     uint layer = pageTable[entry >> 2u][entry & 3u];
     at -= vec2(page) * pageSize;
-    if (layer == pageMissing) return vec4(-1e30, 1e30, -1e30, 1e30);
+    if (layer == pageMissing) return vec4(unknown);
 #else
     uint layer = point.pages;
 #endif
     vec2 off = abs(point.place.xy - 0.5 * shadowMaps[first].size.x);
     // Beyond its farthest depth, too: what is drawn there is at depth 0, not where it is.
     if (max(off.x, off.y) > 0.5 * shadowMaps[first].size.x || point.place.z <= 0.0)
-        return vec4(-1e30, 1e30, -1e30, 1e30);
+        return vec4(unknown);
     float cells = float(textureSize(shadowMoments, 0).x);
     // Radii, in texels: 2 of the finest, then 8 and doubling.
     float octaves = log2(radius * 0.5);
