@@ -53,8 +53,8 @@ public:
         // is left of the largest in its triangle, along this very line.
         const dvec3 size = glm::abs(surface);
         const dvec3 nearer = project(base + worldFromClip_[2] * (depth + 0x1p-24));
-        const double slack = 0x1p-20 * (1.0 + std::max({size.x, size.y, size.z})) +
-                             glm::length(nearer - surface);
+        const double slack =
+            0x1p-20 * (1.0 + std::max({size.x, size.y, size.z})) + glm::length(nearer - surface);
         return {.there = true,
                 .position = away > slack ? surface + toEye * (slack / away) : surface};
     }

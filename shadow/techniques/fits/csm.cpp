@@ -86,8 +86,7 @@ std::vector<Slice> slicesOf(const FitInput& input, const LightPlane& plane, cons
             }
         }
     }
-    for (Slice& slice : made) 
-        slice.hull = dilated(convexHull(std::move(slice.hull)), input.reach);
+    for (Slice& slice : made) slice.hull = dilated(convexHull(std::move(slice.hull)), input.reach);
     for (const Sample& sample : input.samples) {
         const double depth = viewer.depthOf(sample.world);
         if (depth > 0.0) made[sliceOf(bounds, depth)].samples += sample.weight;

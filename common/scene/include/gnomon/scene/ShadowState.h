@@ -33,7 +33,7 @@ public:
     Field<std::int32_t> kernelWidth{8};  ///< as ShadowViewport's
     Field<std::int32_t> kernelSamples;
     Field<float> quality{1.0F};  ///< of soft filters: times so many samples
-    Field<bool> degenerate;  ///< the fit fell back to a plain one
+    Field<bool> degenerate;      ///< the fit fell back to a plain one
     static constexpr auto fields() {
         return std::tuple{entry("light", &ShadowState::light),
                           entry("group", &ShadowState::group),
