@@ -2,7 +2,6 @@
 
 #include <gnomon/config/Config.h>
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>

@@ -10,9 +10,9 @@ std::string_view version() noexcept;
 std::string_view meshVertex() noexcept;
 /// Light blocks and the surface's material.
 std::string_view meshCommon() noexcept;
-/// Colour pass; after the shadow lookup's text.
 /// Of factors that were traced: what lookupGlsl() and a filter are otherwise.
 std::string_view tracedLookup() noexcept;
+/// Colour pass; after the shadow lookup's text.
 std::string_view meshColor() noexcept;
 /// Depth of masked casters.
 std::string_view meshDepth() noexcept;

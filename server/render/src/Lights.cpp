@@ -35,15 +35,6 @@ bool reaches(const shadow_fit::LightShape& shape, const std::array<math::Plane, 
     });
 }
 
-/// Whether a viewport wants shadows of a light.
-bool casts(const scene::FlatScene::LightUse& use, const scene::ShadowViewport& viewport) {
-    const auto& wanted = viewport.lightNodes;
-    return use.light->on && use.light->castsShadow &&
-           (wanted.empty() || std::any_of(wanted.begin(), wanted.end(), [&](const auto& ref) {
-                return ref.id == use.node->id();
-            }));
-}
-
 LightBlock blockFor(const scene::FlatScene::LightUse& use, const shadow_fit::LightShape& shape,
                     const math::dvec3& origin) {
     LightBlock block;
@@ -70,11 +61,6 @@ LightBlock blockFor(const scene::FlatScene::LightUse& use, const shadow_fit::Lig
 
 }  // namespace
 
-bool isTraced(const scene::Viewport& viewport) {
-    const auto* shadowed = dynamic_cast<const scene::ShadowViewport*>(&viewport);
-    return shadowed != nullptr && shadowed->shadowOn && shadowed->technique.get() == "ray";
-}
-
 Lights::Lights(const gl::Api& gl) : gl_{gl}, lights_{gl}, view_{gl} {
     lights_.label("lights");
     view_.label("view");
@@ -88,7 +74,8 @@ Lights::Uploaded Lights::upload(const scene::FlatScene& flat, const math::View& 
                                 shadow::ShadowMaps* maps, int only) {
     Uploaded done;
     const auto* shadowed = dynamic_cast<const scene::ShadowViewport*>(&viewport);
-    const bool tracing = isTraced(viewport);
+    const bool tracing =
+        shadowed != nullptr && shadowed->shadowOn && shadowed->technique.get() == "ray";
     std::array<LightBlock, scene::FlatScene::maxLights> blocks;
     std::array<field::Id, scene::FlatScene::maxLights> order;
     std::uint64_t used = 0;
@@ -106,7 +93,7 @@ Lights::Uploaded Lights::upload(const scene::FlatScene& flat, const math::View& 
             return;
         }
         LightBlock block = blockFor(use, shape, origin);
-        const bool rays = tracing && casts(use, *shadowed);
+        const bool rays = tracing && shadow_fit::wantsShadows(*shadowed, use);
         if (rays) done.traced.push_back({.layer = done.count, .shape = shape});
         block.ambient.w =
             rays || (maps != nullptr && maps->count(use.node->id()) > 0) ? 1.0F : 0.0F;

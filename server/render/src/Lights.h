@@ -12,9 +12,6 @@
 
 namespace gnomon::render {
 
-/// Whether a viewport's shadows are traced.
-bool isTraced(const scene::Viewport& viewport);
-
 /// The lights and the view, as the surface shaders read them.
 class Lights {
 public:

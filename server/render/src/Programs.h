@@ -80,7 +80,7 @@ private:
     gl::Program background_;
     gl::Program foreground_;
     gl::Program depthRange_;
-    std::map<std::tuple<int, bool, bool>, gl::Program> combine_;  ///< by maps per light ...
+    std::map<std::tuple<int, bool, bool>, gl::Program> combine_;  ///< as Arranged
     std::unordered_map<field::Id, Foreign> foreign_;
 };
 

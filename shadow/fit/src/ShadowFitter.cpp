@@ -9,10 +9,13 @@
 namespace gnomon::shadow_fit {
 namespace {
 
-std::vector<std::string_view> filterNames() {
-    std::vector<std::string_view> names;
-    for (const FilterUse& use : filterUses()) names.push_back(use.name);
-    return names;
+std::span<const std::string_view> filterNames() {
+    static const auto all = [] {
+        std::vector<std::string_view> names;
+        for (const FilterUse& use : filterUses()) names.push_back(use.name);
+        return names;
+    }();
+    return all;
 }
 
 /// The origin a group draws relative to moves in steps, so that a moving head does not change the
@@ -81,6 +84,14 @@ LightShape lightShape(const scene::FlatScene::LightUse& use) {
         shape.extent = sun->angle;
     }
     return shape;
+}
+
+bool wantsShadows(const scene::ShadowViewport& viewport, const scene::FlatScene::LightUse& use) {
+    const auto& wanted = viewport.lightNodes;
+    return use.light->on && use.light->castsShadow &&
+           (wanted.empty() || std::any_of(wanted.begin(), wanted.end(), [&](const auto& ref) {
+                return ref.id == use.node->id();
+            }));
 }
 
 void ShadowFitter::update(field::Aspect& session, const field::Applied& applied) {
@@ -232,12 +243,8 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group,
     const math::Box bounds = plan.seen.flat.bounds();
     if (!bounds.empty()) eye = glm::clamp(eye, bounds.min, bounds.max);
     for (int i = 0; i < 3; ++i) plan.origin[i] = std::round(eye[i] / originStep) * originStep;
-    const auto& wanted = viewport.lightNodes;
     const auto shadows = [&](const scene::FlatScene::LightUse& use) {
-        return use.light->on && use.light->castsShadow &&
-               (wanted.empty() || std::any_of(wanted.begin(), wanted.end(), [&](const auto& ref) {
-                    return ref.id == use.node->id();
-                }));
+        return wantsShadows(viewport, use);
     };
     const auto lights = plan.seen.flat.lights();
     const auto count = static_cast<int>(std::count_if(lights.begin(), lights.end(), shadows));

@@ -1,7 +1,8 @@
 // Variance shadow maps of depths that an exponential warps, one way and the other: light bleeds
 // less, since the warped distance of casters to each other is small beside that to what they
-// shadow. Andrew Lauritzen, Michael McCool. Layered Variance Shadow Maps. 2008. The exponent is as
-// large as squares of the warped depth fit into a float.
+// shadow. Andrew Lauritzen, Michael McCool. Layered Variance Shadow Maps. 2008.
+// With twice the exponent squares would still fit into a float, but planes that the light grazes
+// would be too steep for their own mean.
 #include <gnomon/shadow/Filter.h>
 
 namespace gnomon::shadow {

@@ -11,7 +11,7 @@ FilterInfo describe_pcf() {
             .source = "Reeves, Salesin, Cook 1987",
             .glsl = R"glsl(
 float filteredShadow(int first, ShadowPoint point) {
-    float radius = min(shadowMaps[first].light.w / point.axial, shadowMaps[first].kernel.z);
+    float radius = kernelReach(first, point);
     float texels = radius * texelsPerUnit(first, point);
     Around all = around(first, point, texels);
     float count = all.lit || all.shadowed ? 0.0 : samplesOf(first, 2.0 * texels);

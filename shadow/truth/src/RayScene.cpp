@@ -239,12 +239,12 @@ void RayScene::update(const scene::FlatScene& flat, const dvec3& origin) {
 void RayScene::moveTo(const dvec3& origin) {
     Parts& p = *parts_;
     if (origin == p.origin) return;
-    const dvec3 by = p.origin - origin;
+    const math::dvec4 before{p.origin, 0.0};
     p.origin = origin;
     for (Parts::Use& use : p.uses) {
         if (use.mesh == nullptr) continue;
         math::dmat4 world = use.originFromLocal;
-        world[3] += math::dvec4{by + origin, 0.0};
+        world[3] += before;
         p.place(use, world);
     }
     rtcCommitScene(p.drawn.get());

@@ -107,23 +107,39 @@ ShadowPoint foundPoint(int first, vec3 position, vec3 normal) {
                        place.w / axial, axial, vec2(1.0));
 }
 
+// The layer of the page that a place is in, and where in the map that page begins; pageMissing where
+// it was not drawn.
+uint pageOf(int first, ShadowPoint point, out vec2 corner) {
+#ifdef PAGED_MAPS
+    float pageSize = shadowMaps[first].size.y;
+    uint side = shadowMaps[first].pages.x;
+    uvec2 page = uvec2(clamp(point.place.xy / pageSize, vec2(0.0), vec2(float(side) - 1.0)));
+    uint entry = point.pages + page.y * side + page.x;
+    corner = vec2(page) * pageSize;
+    return pageTable[entry >> 2u][entry & 3u];
+#else
+    corner = vec2(0.0);
+    return point.pages;
+#endif
+}
+
+// Radius of a fixed kernel, in units of the light's plane.
+float kernelReach(int first, ShadowPoint point) {
+    return min(shadowMaps[first].light.w / point.axial, shadowMaps[first].kernel.z);
+}
+
 // The four texels nearest to a place, as gathered, and where between them it is. Nothing, as far away
 // as can be, beyond the map and where no page was drawn.
 //   first  any map of the light: all its maps are of one size
 vec4 texelsAt(int first, ShadowPoint point, out vec2 share) {
     vec2 corner = floor(point.place.xy - 0.5);
     share = point.place.xy - 0.5 - corner;
+    vec2 pageCorner;
+    uint layer = pageOf(first, point, pageCorner);
 #ifdef PAGED_MAPS
-    float pageSize = shadowMaps[first].size.y;
-    uint side = shadowMaps[first].pages.x;
-    uvec2 page = uvec2(clamp(point.place.xy / pageSize, vec2(0.0), vec2(float(side) - 1.0)));
-    uint entry = point.pages + page.y * side + page.x;
-    uint layer = pageTable[entry >> 2u][entry & 3u];
     if (layer == pageMissing) return vec4(0.0);
-    corner -= vec2(page) * pageSize;
-#else
-    uint layer = point.pages;
 #endif
+    corner -= pageCorner;
     // Between the four: one texel of border, one to their common corner.
     return textureGather(shadowPages,
                          vec3((corner + 2.0) * shadowMaps[first].size.z, float(layer)));

@@ -33,8 +33,7 @@ layout(binding = 9) uniform sampler2DArray shadowMoments;
 
 // Of the kernel, texels: as wide as the finest cells are at the least.
 float kernelRadius(int first, ShadowPoint point) {
-    float radius = min(shadowMaps[first].light.w / point.axial, shadowMaps[first].kernel.z);
-    return max(radius * texelsPerUnit(first, point), 2.0);
+    return max(kernelReach(first, point) * texelsPerUnit(first, point), 2.0);
 }
 
 // Where nothing was drawn, and all is lit.
@@ -44,18 +43,12 @@ const float unknown = 1e30;
 // as wide.
 vec4 momentsAround(int first, ShadowPoint point) {
     float radius = kernelRadius(first, point);
-    vec2 at = point.place.xy;
+    vec2 corner;
+    uint layer = pageOf(first, point, corner);
 #ifdef PAGED_MAPS
-    float pageSize = shadowMaps[first].size.y;
-    uint pages = shadowMaps[first].pages.x;
-    uvec2 page = uvec2(clamp(at / pageSize, vec2(0.0), vec2(float(pages) - 1.0)));
-    uint entry = point.pages + page.y * pages + page.x;
-    uint layer = pageTable[entry >> 2u][entry & 3u];
-    at -= vec2(page) * pageSize;
     if (layer == pageMissing) return vec4(unknown);
-#else
-    uint layer = point.pages;
 #endif
+    vec2 at = point.place.xy - corner;
     vec2 off = abs(point.place.xy - 0.5 * shadowMaps[first].size.x);
     // Beyond its farthest depth, too: what is drawn there is at depth 0, not where it is.
     if (max(off.x, off.y) > 0.5 * shadowMaps[first].size.x || point.place.z <= 0.0)

@@ -29,6 +29,17 @@ void main() {
 
 }  // namespace
 
+gl::Sampler texelSampler(const gl::Api& gl) {
+    gl::Sampler sampler{gl};
+    gl.SamplerParameteri(sampler.id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.SamplerParameteri(sampler.id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl.SamplerParameteri(sampler.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+    gl.SamplerParameteri(sampler.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+    const std::array<float, 4> nothing{0.0F, 0.0F, 0.0F, 0.0F};
+    gl.SamplerParameterfv(sampler.id(), GL_TEXTURE_BORDER_COLOR, nothing.data());
+    return sampler;
+}
+
 Pyramid::Pyramid(const gl::Api& gl, const PyramidInfo& info, int pageSize)
     : gl_{gl},
       info_{info},
@@ -37,19 +48,12 @@ Pyramid::Pyramid(const gl::Api& gl, const PyramidInfo& info, int pageSize)
           static_cast<unsigned>((pageSize + info.texelsPerCell - 1) / info.texelsPerCell)))},
       levels_{static_cast<int>(std::bit_width(static_cast<unsigned>(side_)))},
       cells_{gl, GLenum{GL_TEXTURE_2D}},
-      sampler_{gl},
+      sampler_{texelSampler(gl)},
       kept_{gl},
       firstLevel_{build("first level of a shadow pyramid", "firstLevel")},
       nextLevel_{build("next level of a shadow pyramid", "nextLevel")},
       keep_{build("kept level of a shadow pyramid", "kept")},
       empty_{gl} {
-    gl_.SamplerParameteri(sampler_.id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl_.SamplerParameteri(sampler_.id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    // Beyond a page there is nothing, as far away as can be.
-    gl_.SamplerParameteri(sampler_.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
-    gl_.SamplerParameteri(sampler_.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
-    const std::array<float, 4> nothing{0.0F, 0.0F, 0.0F, 0.0F};
-    gl_.SamplerParameterfv(sampler_.id(), GL_TEXTURE_BORDER_COLOR, nothing.data());
     cells_.label("cells of a shadow pyramid");
     gl_.TextureStorage2D(cells_.id(), levels_, format(), side_, side_);
     gl_.TextureParameteri(cells_.id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);

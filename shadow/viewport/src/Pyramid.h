@@ -8,6 +8,9 @@
 
 namespace gnomon::shadow {
 
+/// A sampler of single texels, beyond whose texture there is nothing, as far away as can be.
+gl::Sampler texelSampler(const gl::Api& gl);
+
 /// Summaries of the pages of a pool, coarser from level to level: for filters that need more of a
 /// map than its texels. Made once after a page was drawn.
 class Pyramid {

@@ -141,7 +141,7 @@ struct ShadowMaps::Frame {
 };
 
 ShadowMaps::ShadowMaps(const gl::Api& gl)
-    : gl_{gl}, mapsBuffer_{gl}, tableBuffer_{gl}, framebuffer_{gl}, sampler_{gl} {
+    : gl_{gl}, mapsBuffer_{gl}, tableBuffer_{gl}, framebuffer_{gl}, sampler_{texelSampler(gl)} {
     mapsBuffer_.label("shadow maps");
     tableBuffer_.label("page table");
     framebuffer_.label("shadow page");
@@ -150,13 +150,6 @@ ShadowMaps::ShadowMaps(const gl::Api& gl)
     gl_.NamedBufferStorage(tableBuffer_.id(), sizeof(std::uint32_t) * maxTableEntries, nullptr,
                            GL_DYNAMIC_STORAGE_BIT);
     gl_.NamedFramebufferDrawBuffer(framebuffer_.id(), GL_NONE);
-    // Gathered, so that filtering has no say; beyond a page there is nothing, far away.
-    gl_.SamplerParameteri(sampler_.id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl_.SamplerParameteri(sampler_.id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl_.SamplerParameteri(sampler_.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
-    gl_.SamplerParameteri(sampler_.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
-    const std::array<float, 4> nothing{0.0F, 0.0F, 0.0F, 0.0F};
-    gl_.SamplerParameterfv(sampler_.id(), GL_TEXTURE_BORDER_COLOR, nothing.data());
 }
 
 ShadowMaps::~ShadowMaps() = default;

@@ -35,7 +35,7 @@ vec4 firstLevel(ivec2 cell) {
 vec4 nextLevel(ivec2 cell) {
     float half_ = 2.0 * exp2(float(level - 1)); // of the smaller cells, texels
     vec4 parts[4];
-    vec2 low = vec2(1e30), high = vec2(-1e30), mean = vec2(0.0), rise = vec2(0.0);
+    vec2 rise = vec2(0.0);
     vec2 flat_ = vec2(1e30, -1e30);
     for (int i = 0; i < 4; ++i) {
         vec2 side = vec2(i & 1, i >> 1) * 2.0 - 1.0;
@@ -98,18 +98,13 @@ Around around(int first, ShadowPoint point, float radius) {
     float cellSide = float(4 << level);
     float pageSize = shadowMaps[first].size.y;
     if (cellSide > pageSize) return Around(false, false, 1.0);
-    vec2 at = point.place.xy;
+    vec2 corner;
+    uint layer = pageOf(first, point, corner);
+    vec2 at = point.place.xy - corner;
 #ifdef PAGED_MAPS
-    uint pages = shadowMaps[first].pages.x;
-    uvec2 page = uvec2(clamp(at / pageSize, vec2(0.0), vec2(float(pages) - 1.0)));
-    uint entry = point.pages + page.y * pages + page.x;
-    uint layer = pageTable[entry >> 2u][entry & 3u];
-    at -= vec2(page) * pageSize;
     vec2 over = abs(at - 0.5 * pageSize) + radius;
     if (layer == pageMissing || max(over.x, over.y) > 0.5 * pageSize)
         return Around(false, false, 1.0);
-#else
-    uint layer = point.pages;
 #endif
     ivec2 cell = ivec2(clamp(at / cellSide, vec2(0.0), vec2(ceil(pageSize / cellSide) - 1.0)));
     vec4 bounds = texelFetch(shadowBounds, ivec3(cell, int(layer)), level);

@@ -80,4 +80,7 @@ private:
 /// down.
 LightShape lightShape(const scene::FlatScene::LightUse& use);
 
+/// Whether a viewport wants shadows of a light.
+bool wantsShadows(const scene::ShadowViewport& viewport, const scene::FlatScene::LightUse& use);
+
 }  // namespace gnomon::shadow_fit
