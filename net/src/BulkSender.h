@@ -21,6 +21,7 @@ class BulkSender {
 public:
     void attach(std::shared_ptr<Channel> channel) {
         channel_ = std::move(channel);
+        channel_->tellDrained();
         pump();
     }
     void add(BulkItem item) {

@@ -202,26 +202,56 @@ void Channel::queue(Part part) {
 }
 
 void Channel::flush() {
-    if (closed_ || writing_ || queue_.empty()) return;
+    if (closed_ || writing_) return;
     if (tls_) return flushSealed();
-    writing_ = true;
-    ++writes_;
+    if (queue_.empty()) return;
     inFlight_.clear();
     inFlight_.swap(queue_);
     queuedBytes_ = 0;
     buffers_.clear();
     for (const Part& part : inFlight_) buffers_.emplace_back(part.bytes.data(), part.bytes.size());
-    const BufferView view{.first = buffers_.data(), .last = buffers_.data() + buffers_.size()};
-    asio::async_write(socket_, view, [self = shared_from_this()](error_code ec, std::size_t count) {
-        self->writing_ = false;
-        self->bytesSent_ += count;
-        self->inFlight_.clear();
-        if (self->closed_) return;
-        if (ec) return self->fail({.code = Errc::disconnected, .what = self->remote_, .cause = ec});
-        if (!self->queue_.empty()) return self->flush();
-        if (self->finishing_) return self->end();
-        if (self->receiver_ != nullptr) self->receiver_->drained(*self);
-    });
+    write();
+}
+
+/// Hands buffers_ to the system: what it takes at once in one call, which is all of it but where
+/// the other side is slow or there is much; the rest when it takes more.
+void Channel::write() {
+    ++writes_;
+    error_code ec;
+    std::size_t count =
+        socket_.write_some(BufferView{buffers_.data(), buffers_.data() + buffers_.size()}, ec);
+    if (ec == asio::error::would_block) {
+        count = 0;
+        ec.clear();
+    }
+    bytesSent_ += count;
+    if (ec) return fail({.code = Errc::disconnected, .what = remote_, .cause = ec});
+    auto rest = buffers_.begin();
+    while (rest != buffers_.end() && count >= rest->size()) count -= (rest++)->size();
+    if (rest == buffers_.end()) {
+        if (!tellsDrained_) return;
+        // Posted: whoever queues more at once would come here again from within.
+        return asio::post(socket_.get_executor(), [self = shared_from_this()] {
+            if (!self->closed_ && !self->writing_ && self->receiver_ != nullptr)
+                self->receiver_->drained(*self);
+        });
+    }
+    *rest += count;
+    writing_ = true;
+    const BufferView left{&*rest, buffers_.data() + buffers_.size()};
+    asio::async_write(
+        socket_, left, [self = shared_from_this()](error_code failed, std::size_t more) {
+            self->writing_ = false;
+            self->bytesSent_ += more;
+            if (self->closed_) return;
+            if (failed)
+                return self->fail(
+                    {.code = Errc::disconnected, .what = self->remote_, .cause = failed});
+            self->flush();
+            if (self->writing_ || self->closed_) return;
+            if (self->finishing_) return self->end();
+            if (self->receiver_ != nullptr) self->receiver_->drained(*self);
+        });
 }
 
 void Channel::finish() {

@@ -38,7 +38,8 @@ public:
                                   std::span<const std::byte> body) = 0;
     /// Both sides have proved the cluster key. Not called for a channel without TLS.
     virtual void secured(Channel& /*channel*/) {}
-    /// Everything queued was handed to the operating system.
+    /// Everything queued was handed to the operating system, after it had to wait (see
+    /// Channel::tellDrained).
     virtual void drained(Channel& /*channel*/) {}
     /// The channel closed by itself. Called once, never from within another call of the channel,
     /// and never after close().
@@ -78,6 +79,10 @@ public:
         flush();
     }
 
+    /// Large messages will be sent a piece at a time: drained() is called after each, also when the
+    /// system took it at once.
+    void tellDrained() noexcept { tellsDrained_ = true; }
+
     void pause() noexcept { paused_ = true; }
     void resume();
 
@@ -110,6 +115,7 @@ private:
     void parse();
     Result<bool> parseOne();
     Result<void> deliver(std::uint32_t type, std::span<const std::byte> body);
+    void write();
     void fail(Error why);
     void fail(std::string why);
     void end();
@@ -143,7 +149,7 @@ private:
     std::vector<asio::const_buffer> buffers_;
     std::size_t queuedBytes_ = 0;
 
-    bool reading_ = false, writing_ = false, paused_ = false;
+    bool reading_ = false, writing_ = false, paused_ = false, tellsDrained_ = false;
     bool parsing_ = false, pumping_ = false, finishing_ = false, closed_ = false;
     TimePoint lastHeard_ = SteadyClock::now();
     std::uint64_t bytesSent_ = 0, writes_ = 0;

@@ -64,24 +64,12 @@ void Channel::readSealed() {
 }
 
 void Channel::flushSealed() {
-    if (closed_ || writing_ || !seal() || tls_->output().empty()) return;
-    writing_ = true;
-    ++writes_;
-    sealedOutput_.clear();
-    sealedOutput_.swap(tls_->output());
-    asio::async_write(
-        socket_, asio::buffer(sealedOutput_.data(), sealedOutput_.size()),
-        [self = shared_from_this()](error_code ec, std::size_t count) {
-            self->writing_ = false;
-            self->bytesSent_ += count;
-            if (self->closed_) return;
-            if (ec)
-                return self->fail({.code = Errc::disconnected, .what = self->remote_, .cause = ec});
-            self->flushSealed();
-            if (self->writing_ || self->closed_ || !self->queue_.empty()) return;
-            if (self->finishing_) return self->end();
-            if (self->receiver_ != nullptr) self->receiver_->drained(*self);
-        });
+    while (!closed_ && !writing_ && seal() && !tls_->output().empty()) {
+        sealedOutput_.clear();
+        sealedOutput_.swap(tls_->output());
+        buffers_.assign(1, asio::const_buffer{sealedOutput_.data(), sealedOutput_.size()});
+        write();
+    }
 }
 
 /// Seals the next slice of what is queued. False where that failed.

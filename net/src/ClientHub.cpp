@@ -1,83 +1,55 @@
 #include <fmt/format.h>
 #include <gnomon/net/ClientHub.h>
 
-#include <thread>
-
 #include "HubCore.h"
+#include "Reactor.h"
 
 namespace gnomon::net {
+namespace {
+
+/// Who does not take part, and why; for people.
+std::string missingOf(const std::vector<ServerStatus>& servers) {
+    std::string missing;
+    for (const ServerStatus& server : servers) {
+        if (server.state == ServerState::member) continue;
+        const auto label = fmt::format("{} ({}:{})", server.address.name, server.address.host,
+                                       server.address.port);
+        missing += missing.empty() ? "" : "; ";
+        // An error of the peer begins with its label already.
+        missing += server.text.rfind(label, 0) == 0 ? server.text : label + ": " + server.text;
+    }
+    return missing;
+}
+
+}  // namespace
 
 class ClientHub::Impl {
 public:
     Impl(const field::TypeRegistry& types, SyncOptions options, HubHooks hooks,
          const SharedKey& key)
-        : core_{std::make_unique<HubCore>(io_, types, options, std::move(hooks), key, mailbox_)},
-          thread_{[this] { run(); }} {}
+        : core_{std::make_unique<HubCore>(reactor_.io(), types, options, std::move(hooks), key)} {}
 
     ~Impl() { shutdown(); }
 
-    void shutdown() {
-        if (!thread_.joinable()) return;
-        asio::post(io_, [this] { core_->stop([this] { io_.stop(); }); });
-        thread_.join();
-    }
-
-    /// Runs fn(core) on the hub's thread and waits for its value; nothing after shutdown.
-    template <class Fn>
-    auto ask(Fn fn) -> std::optional<decltype(fn(std::declval<HubCore&>()))> {
-        using Value = decltype(fn(std::declval<HubCore&>()));
-        auto slot = std::make_shared<std::optional<Value>>();
-        asio::post(io_, [this, slot, fn = std::move(fn)]() mutable {
-            Value value = fn(*core_);
-            {
-                const std::lock_guard lock{mailbox_.mutex};
-                slot->emplace(std::move(value));
-            }
-            mailbox_.changed.notify_all();
-        });
-        std::unique_lock lock{mailbox_.mutex};
-        mailbox_.changed.wait(lock, [&] { return slot->has_value() || mailbox_.stopped; });
-        return std::move(*slot);
-    }
-
-    std::uint64_t version() {
-        const std::lock_guard lock{mailbox_.mutex};
-        return mailbox_.version;
-    }
-    /// False at the deadline and after shutdown.
-    bool waitForChange(std::uint64_t seen, Deadline deadline) {
-        std::unique_lock lock{mailbox_.mutex};
-        mailbox_.changed.wait_until(lock, deadline,
-                                    [&] { return mailbox_.version != seen || mailbox_.stopped; });
-        return mailbox_.version != seen && !mailbox_.stopped;
-    }
-
-    void run() {
-        std::exception_ptr error;
+    void shutdown() noexcept {
+        if (std::exchange(stopped_, true)) return;
         try {
-            io_.run();
+            bool begun = false, ended = false;
+            reactor_.runUntil(
+                [&] {
+                    if (!std::exchange(begun, true)) core_->stop([&] { ended = true; });
+                    return ended;
+                },
+                TimePoint::max());
         } catch (...) {
-            error = std::current_exception();
+            // Broken already, and its user was told.
         }
-        {
-            const std::lock_guard lock{mailbox_.mutex};
-            mailbox_.stopped = true;
-            broken_ = error;
-        }
-        mailbox_.changed.notify_all();
+        reactor_.end();
     }
 
-    [[noreturn]] void throwStopped() {
-        if (broken_) std::rethrow_exception(broken_);
-        throw Failure{Errc::disconnected, "the client hub was shut down"};
-    }
-
-    asio::io_context io_{1};
-    asio::executor_work_guard<asio::io_context::executor_type> work_{io_.get_executor()};
-    Mailbox mailbox_;
-    std::exception_ptr broken_;  // guarded by the mailbox's mutex
+    Reactor reactor_;
+    bool stopped_ = false;
     std::unique_ptr<HubCore> core_;
-    std::thread thread_;
 };
 
 ClientHub::ClientHub(const field::TypeRegistry& types, SyncOptions options, HubHooks hooks,
@@ -87,80 +59,84 @@ ClientHub::ClientHub(const field::TypeRegistry& types, SyncOptions options, HubH
 ClientHub::~ClientHub() = default;
 
 void ClientHub::connect(ServerAddress address) {
-    asio::post(impl_->io_, [core = impl_->core_.get(), address = std::move(address)]() mutable {
-        core->connect(std::move(address));
-    });
+    if (impl_->stopped_) return;
+    impl_->reactor_.alone([&] { impl_->core_->connect(std::move(address)); });
 }
 
 Result<void> ClientHub::waitForAll(
     const std::function<void(const std::vector<ServerStatus>&)>& progress, Deadline deadline) {
-    while (true) {
-        const std::uint64_t seen = impl_->version();
-        const auto servers = status();
+    std::optional<std::uint64_t> seen;
+    while (!impl_->stopped_) {
+        bool late = false;
+        std::vector<ServerStatus> servers;
+        impl_->reactor_.runUntil(
+            [&] {
+                late = SteadyClock::now() >= deadline;
+                if (!late && seen == impl_->core_->version()) return false;
+                seen = impl_->core_->version();
+                servers = impl_->core_->status();
+                return true;
+            },
+            deadline);
         if (progress) progress(servers);
-        std::string missing;
-        for (const ServerStatus& server : servers) {
-            if (server.state == ServerState::member) continue;
-            const auto label = fmt::format("{} ({}:{})", server.address.name, server.address.host,
-                                           server.address.port);
-            missing += missing.empty() ? "" : "; ";
-            // An error of the peer begins with its label already.
-            missing += server.text.rfind(label, 0) == 0 ? server.text : label + ": " + server.text;
-        }
+        const std::string missing = missingOf(servers);
         if (missing.empty()) return {};
-        if (!impl_->waitForChange(seen, deadline) && std::chrono::steady_clock::now() >= deadline)
-            return fail(Errc::timeout, "not all servers take part: " + missing);
-        const std::lock_guard lock{impl_->mailbox_.mutex};
-        if (impl_->mailbox_.stopped) return fail(Errc::disconnected, "the hub was shut down");
+        if (late) return fail(Errc::timeout, "not all servers take part: " + missing);
     }
+    return fail(Errc::disconnected, "the hub was shut down");
 }
 
 FrameResult ClientHub::frame(field::ChangeList changes, double time, bool capture) {
-    auto call = std::make_shared<FrameCall>();
+    if (impl_->stopped_) throw Failure{Errc::disconnected, "the client hub was shut down"};
+    const auto call = std::make_shared<FrameCall>();
     call->list = std::move(changes);
     call->time = time;
     call->capture = capture;
-    asio::post(impl_->io_, [core = impl_->core_.get(), call] { core->handOver(call); });
-    Mailbox& mailbox = impl_->mailbox_;
-    std::unique_lock lock{mailbox.mutex};
-    mailbox.changed.wait(lock, [&] { return call->done || mailbox.stopped; });
-    if (!call->done) impl_->throwStopped();
+    bool handedOver = false;
+    impl_->reactor_.runUntil(
+        [&] {
+            if (!std::exchange(handedOver, true)) impl_->core_->handOver(call);
+            impl_->reactor_.setEager(impl_->core_->busy());
+            return call->done;
+        },
+        TimePoint::max());
     if (call->error) std::rethrow_exception(call->error);
     return std::move(call->result);
 }
 
 Result<std::vector<TileImage>> ClientHub::takeImages(std::uint64_t n, Deadline deadline) {
-    while (true) {
-        const std::uint64_t seen = impl_->version();
-        auto taken = impl_->ask([n](HubCore& core) { return core.takeImages(n); });
-        if (!taken) return fail(Errc::disconnected, "the client hub was shut down");
-        if (*taken) return **std::move(taken);
-        if (impl_->waitForChange(seen, deadline) || std::chrono::steady_clock::now() < deadline)
-            continue;
-        const auto who = impl_->ask([n](HubCore& core) { return core.imagesWaitFor(n); });
-        return fail(
-            Errc::timeout,
-            fmt::format("the pictures of frame {} did not arrive in time{}", n,
-                        who && !who->empty() ? ": missing are those of " + *who : std::string{}));
-    }
+    if (impl_->stopped_) return fail(Errc::disconnected, "the client hub was shut down");
+    std::optional<Result<std::vector<TileImage>>> taken;
+    std::string missing;
+    impl_->reactor_.runUntil(
+        [&] {
+            taken = impl_->core_->takeImages(n);
+            if (!taken) missing = impl_->core_->imagesWaitFor(n);
+            return taken.has_value();
+        },
+        deadline);
+    if (taken) return *std::move(taken);
+    return fail(Errc::timeout,
+                fmt::format("the pictures of frame {} did not arrive in time{}", n,
+                            missing.empty() ? missing : ": missing are those of " + missing));
 }
 
 std::vector<InputEventFrom> ClientHub::takeEvents() {
-    const std::lock_guard lock{impl_->mailbox_.mutex};
-    auto& events = impl_->mailbox_.events;
-    std::vector<InputEventFrom> taken{std::make_move_iterator(events.begin()),
-                                      std::make_move_iterator(events.end())};
-    events.clear();
-    return taken;
+    std::deque<InputEventFrom> events;
+    if (!impl_->stopped_) impl_->reactor_.alone([&] { events = impl_->core_->takeEvents(); });
+    return {std::make_move_iterator(events.begin()), std::make_move_iterator(events.end())};
 }
 
 std::vector<ServerStatus> ClientHub::status() const {
-    return impl_->ask([](HubCore& core) { return core.status(); })
-        .value_or(std::vector<ServerStatus>{});
+    std::vector<ServerStatus> servers;
+    if (!impl_->stopped_) impl_->reactor_.alone([&] { servers = impl_->core_->status(); });
+    return servers;
 }
 
 HubTotals ClientHub::totals() const {
-    return impl_->ask([](HubCore& core) { return core.totals(); }).value_or(HubTotals{});
+    HubTotals totals;
+    if (!impl_->stopped_) impl_->reactor_.alone([&] { totals = impl_->core_->totals(); });
+    return totals;
 }
 
 void ClientHub::shutdown() { impl_->shutdown(); }

@@ -14,13 +14,12 @@ constexpr Milliseconds farewell{300};
 }  // namespace
 
 HubCore::HubCore(asio::io_context& io, const field::TypeRegistry& types, SyncOptions options,
-                 HubHooks hooks, const SharedKey& key, Mailbox& mailbox)
+                 HubHooks hooks, const SharedKey& key)
     : io_{io},
       types_{types},
       options_{options},
       hooks_{std::move(hooks)},
       tls_{key ? std::make_shared<const TlsContext>(TlsSide::client, key) : nullptr},
-      mailbox_{mailbox},
       session_{types, 1},
       watchTimer_{io},
       stopTimer_{io} {}
@@ -98,9 +97,8 @@ void HubCore::digest(Peer& peer, const Digest& digest) {
 }
 
 void HubCore::event(Peer& peer, const InputEvent& event) {
-    const std::lock_guard lock{mailbox_.mutex};
-    if (mailbox_.events.size() >= maxEvents) mailbox_.events.pop_front();
-    mailbox_.events.push_back({.server = peer.name(), .event = event});
+    if (events_.size() >= maxEvents) events_.pop_front();
+    events_.push_back({.server = peer.name(), .event = event});
 }
 
 void HubCore::image(Peer& peer, Image image) {
@@ -112,12 +110,6 @@ void HubCore::log(LogLevel level, const std::string& text) {
     if (hooks_.log) hooks_.log(level, text);
 }
 
-void HubCore::changed() {
-    {
-        const std::lock_guard lock{mailbox_.mutex};
-        ++mailbox_.version;
-    }
-    mailbox_.changed.notify_all();
-}
+void HubCore::changed() { ++version_; }
 
 }  // namespace gnomon::net

@@ -2,13 +2,10 @@
 
 #include <gnomon/net/ClientHub.h>
 
-#include <atomic>
-#include <condition_variable>
 #include <deque>
 #include <exception>
 #include <map>
 #include <memory>
-#include <mutex>
 
 #include "CaptureBoard.h"
 #include "PayloadLedger.h"
@@ -16,28 +13,18 @@
 
 namespace gnomon::net {
 
-/// A frame on its way from the application's thread and back.
+/// A frame on its way from the application and back.
 struct FrameCall {
     field::ChangeList list = {};
     double time = 0;
     bool capture = false;
     std::uint64_t n = 0;  // given by the core
-    // Guarded by Mailbox::mutex:
     bool done = false;
     FrameResult result = {};
     std::exception_ptr error = {};
 };
 
-/// What crosses from the Asio thread to the application's.
-struct Mailbox {
-    std::mutex mutex = {};
-    std::condition_variable changed = {};
-    std::uint64_t version = 0;  // of what status() shows
-    bool stopped = false;
-    std::deque<InputEventFrom> events = {};
-};
-
-/// ClientHub's logic: everything here runs on the Asio thread.
+/// ClientHub's logic: everything here runs on the thread that has the Reactor.
 ///
 /// A frame is handed over, prepared (applied to the session aspect and encoded, once), sent, and
 /// swapped. At most one is outstanding (sent, not swapped) and one prepared; what the session
@@ -45,7 +32,7 @@ struct Mailbox {
 class HubCore final : public PeerOwner {
 public:
     HubCore(asio::io_context& io, const field::TypeRegistry& types, SyncOptions options,
-            HubHooks hooks, const SharedKey& key, Mailbox& mailbox);
+            HubHooks hooks, const SharedKey& key);
 
     void connect(ServerAddress address);
     void handOver(std::shared_ptr<FrameCall> call);
@@ -54,7 +41,12 @@ public:
     }
     std::string imagesWaitFor(std::uint64_t n) const { return captures_.waitingFor(n); }
     std::vector<ServerStatus> status() const;
+    /// Counts what status() shows.
+    std::uint64_t version() const noexcept { return version_; }
     HubTotals totals() const;
+    std::deque<InputEventFrom> takeEvents() { return std::exchange(events_, {}); }
+    /// Servers will answer soon, and then there is more to do.
+    bool busy() const noexcept { return outstanding_ || prepared_ || !unprepared_.empty(); }
     /// Says goodbye; @p done is called when all have answered, or after a while.
     void stop(std::function<void()> done);
 
@@ -97,7 +89,8 @@ private:
     void noteDepth();
     void sendFrame();
     void swapFrame();
-    bool barrierDone() const;
+    bool barrierDone();
+    void countAwaited();
     void sendSwap(Peer& peer, std::uint64_t n, const Part& part);
     void flushAll();
     void completeCalls();
@@ -122,7 +115,6 @@ private:
     const SyncOptions options_;
     const HubHooks hooks_;
     const std::shared_ptr<const TlsContext> tls_;  // null: no key
-    Mailbox& mailbox_;
 
     field::Aspect session_;
     field::Applied applied_;
@@ -138,10 +130,17 @@ private:
     double preparedTime_ = 0;
     std::deque<std::pair<std::uint64_t, TimePoint>> sentLately_;
     std::exception_ptr failure_;
+    // Counted anew when a frame is sent or membership changes, so that a Ready costs the same
+    // however many servers there are.
+    std::size_t members_ = 0, awaited_ = 0;
+    bool recount_ = true;
+    bool queued_ = false;  // something, with any peer
 
     Part snapshot_;  // of snapshotVersion_
     std::uint64_t sessionVersion_ = 0, snapshotVersion_ = ~std::uint64_t{0};
 
+    std::uint64_t version_ = 0;
+    std::deque<InputEventFrom> events_;
     FrameResult latest_;  // what the next completed call reports
     Timer watchTimer_, stopTimer_;
     std::function<void()> stopped_;

@@ -150,6 +150,7 @@ void HubCore::tryFit() {
         peer->queue(head);
         peer->queue(changes);
     }
+    queued_ = true;
 }
 
 /// Of the outstanding frame, when it is about to be swapped.
@@ -184,19 +185,26 @@ void HubCore::sendFrame() {
     latest_.bytes = prepared_->bytes + 16;
     latest_.payloadBytes = prepared_->payloadBytes;
     outstanding_ = Outstanding{.frame = *std::move(prepared_), .sentAt = now};
+    recount_ = queued_ = true;
     prepared_.reset();
 }
 
-bool HubCore::barrierDone() const {
-    if (peers_.empty()) return true;
-    bool any = false;
+void HubCore::countAwaited() {
+    recount_ = false;
+    members_ = awaited_ = 0;
     for (const auto& peer : peers_) {
         if (!peer->standing.member) continue;
+        ++members_;
         if (!peer->standing.anyReady || peer->standing.lastReady < outstanding_->frame.n)
-            return false;
-        any = true;
+            ++awaited_;
     }
-    return any || SteadyClock::now() >= outstanding_->sentAt + options_.timeout;
+}
+
+bool HubCore::barrierDone() {
+    if (peers_.empty()) return true;
+    if (recount_) countAwaited();
+    if (members_ > 0) return awaited_ == 0;
+    return SteadyClock::now() >= outstanding_->sentAt + options_.timeout;
 }
 
 void HubCore::swapFrame() {
@@ -204,6 +212,7 @@ void HubCore::swapFrame() {
     if (outstanding_->frame.tellsDepth) noteDepth();
     const Part part = Part::of(packet(wire::Swap{.n = n}));
     for (const auto& peer : peers_) sendSwap(*peer, n, part);
+    queued_ = true;
     latest_.shown = n;
     latest_.ms = millisecondsOf(SteadyClock::now() - outstanding_->sentAt);
     latest_.waitedFor = outstanding_->readyLast;
@@ -235,6 +244,7 @@ std::optional<double> HubCore::skewOf(std::uint64_t n) const {
 }
 
 void HubCore::flushAll() {
+    if (!std::exchange(queued_, false)) return;
     for (const auto& peer : peers_) peer->flush();
 }
 
@@ -247,26 +257,17 @@ void HubCore::completeCalls() {
         latest_.droppedNow.clear();
         latest_.joinedNow.clear();
         result.n = call->n;
-        {
-            const std::lock_guard lock{mailbox_.mutex};
-            call->result = std::move(result);
-            call->done = true;
-        }
-        mailbox_.changed.notify_all();
+        call->result = std::move(result);
+        call->done = true;
     }
 }
 
 void HubCore::failCalls() {
     unprepared_.clear();
-    const auto calls = std::exchange(calls_, {});
-    {
-        const std::lock_guard lock{mailbox_.mutex};
-        for (const auto& call : calls) {
-            call->error = failure_;
-            call->done = true;
-        }
+    for (const auto& call : std::exchange(calls_, {})) {
+        call->error = failure_;
+        call->done = true;
     }
-    mailbox_.changed.notify_all();
 }
 
 }  // namespace gnomon::net

@@ -75,6 +75,9 @@ Result<void> HubCore::ready(Peer& peer, const Ready& ready) {
         (standing.anyReady && ready.n <= standing.lastReady))
         return fail(Errc::protocol,
                     fmt::format("Ready {} out of turn, after {}", ready.n, standing.lastReady));
+    if (standing.member && outstanding_ && standing.lastReady < outstanding_->frame.n &&
+        ready.n >= outstanding_->frame.n)
+        --awaited_;
     standing.anyReady = true;
     standing.lastReady = ready.n;
     standing.stats = ready.stats;
@@ -91,6 +94,7 @@ Result<void> HubCore::ready(Peer& peer, const Ready& ready) {
             log(LogLevel::info, peer.label() + ": takes part again");
         }
         peer.becomeMember();
+        recount_ = true;
         latest_.joinedNow.push_back(peer.name());
         // The newest swap may have been before its snapshot was made.
         if (swappedN_ > 0 && swappedN_ >= standing.snapshot) {
@@ -115,6 +119,7 @@ Result<void> HubCore::depth(Peer& peer, const Depth& depth) {
 }
 
 void HubCore::lost(Peer& peer, const Error&) {
+    recount_ = true;
     if (peer.standing.member) {
         ++lostCount_;
         latest_.droppedNow.push_back(peer.name());

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <exception>
 #include <mutex>
 #include <thread>
 
@@ -12,13 +13,18 @@ namespace gnomon::net {
 /// Runs an io_context on one thread at a time: on its owner's while that waits for messages, and
 /// on a helper's when the owner has been busy elsewhere for a while (rendering).
 ///
-/// With a thread of its own, every frame would cost a server two more thread switches: one to hand
-/// the message over, one to hand the answer back. Handlers need no locks: who has the baton is
+/// With a thread of its own, every frame would cost either side two more thread switches: one to
+/// hand the message over, one to hand the answer back. Handlers need no locks: who has the baton is
 /// alone, and the baton orders what the threads do.
+///
+/// What a handler throws on the helper's thread ends the helper, and the owner's next call throws
+/// it.
 class Reactor {
 public:
     /// How long the owner may be away before the helper takes over; Ping waits so long at most.
     static constexpr Milliseconds patience{20};
+    /// The same while messages are expected (see setEager).
+    static constexpr std::chrono::microseconds eagerPatience{200};
 
     Reactor() : helper_{[this] { help(); }} {}
     ~Reactor() { end(); }
@@ -39,13 +45,15 @@ public:
         helper_.join();
     }
 
-    /// Owner only: handles what is there and what comes until done() or the deadline.
+    /// Owner only: handles what is there and what comes until done() or the deadline; asks done()
+    /// once more after that.
     template <class Done>
     void runUntil(Done done, TimePoint deadline) {
         const Turn turn{*this};
         while (!done()) {
             if (SteadyClock::now() >= deadline) {
                 io_.poll();
+                done();
                 break;
             }
             io_.run_one_until(deadline);
@@ -78,6 +86,9 @@ public:
         fn();
         giveBack();
     }
+    /// From within a handler or alone(): whether the helper is to take over soon after the owner
+    /// has left. It costs a thread switch each time.
+    void setEager(bool eager) noexcept { eager_ = eager; }
     /// From any thread: makes runUntil() look at done() again.
     void nudge() {
         asio::post(io_, [] {});
@@ -98,23 +109,43 @@ private:
             baton_.lock();
         }
         wanted_ = false;
+        if (error_) {
+            baton_.unlock();
+            std::rethrow_exception(error_);
+        }
         inside_ = true;
     }
     void giveBack() {
         awaySince_ = SteadyClock::now().time_since_epoch();
         inside_ = false;
         baton_.unlock();
+        if (!eager_) return;
+        const std::lock_guard lock{mutex_};
+        wake_.notify_one();
     }
     void help() {
         std::unique_lock lock{mutex_};
         while (!stop_) {
-            wake_.wait_for(lock, patience);
+            const SteadyClock::duration limit =
+                eager_ && !inside_ ? SteadyClock::duration{eagerPatience} : patience;
             const auto away = SteadyClock::now().time_since_epoch() - awaySince_.load();
-            if (stop_ || inside_ || away < patience || !baton_.try_lock()) continue;
+            if (inside_ || away < limit || !baton_.try_lock()) {
+                const bool rest = !inside_ && away < limit;
+                wake_.wait_for(lock, rest ? limit - away : SteadyClock::duration{patience});
+                continue;
+            }
             lock.unlock();
-            while (!wanted_ && !stop_) io_.run_one();
+            serve();
             baton_.unlock();
             lock.lock();
+            if (error_) return;
+        }
+    }
+    void serve() noexcept {
+        try {
+            while (!wanted_ && !stop_) io_.run_one();
+        } catch (...) {
+            error_ = std::current_exception();
         }
     }
 
@@ -125,7 +156,9 @@ private:
     std::atomic<bool> inside_{false};  // the owner is
     std::atomic<SteadyClock::duration> awaySince_{SteadyClock::now().time_since_epoch()};
     std::atomic<int> posted_{0};  // by enter(), not called yet
+    std::atomic<bool> eager_{false};
     std::atomic<bool> stop_{false};
+    std::exception_ptr error_;  // with the baton
     std::mutex mutex_;
     std::condition_variable wake_;
     std::thread helper_;

@@ -7,6 +7,9 @@
 namespace gnomon::net {
 namespace {
 
+/// What peek() tells of the sockets may be so old.
+constexpr Milliseconds lookAgain{1};
+
 tcp::acceptor listen(asio::io_context& io, const ServerOptions& options) {
     const auto refuse = [&](const std::string& why, error_code ec = {}) {
         return Failure{
@@ -97,6 +100,7 @@ public:
     std::uint16_t port_ = 0;
     Reactor reactor_;
     std::unique_ptr<HostCore> core_;
+    TimePoint lookedAt_ = {};     // at the sockets
     std::uint64_t imagesOf_ = 0;  // frame
     std::uint32_t images_ = 0;    // sent for it
 };
@@ -113,6 +117,7 @@ ServerEvent ServerHost::next(std::chrono::steady_clock::time_point deadline) {
         auto item = impl_->inbox_.pop();
         if (!item) {
             impl_->reactor_.runUntil([&] { return !impl_->inbox_.empty(); }, deadline);
+            impl_->lookedAt_ = SteadyClock::now();
             item = impl_->inbox_.pop();
         }
         if (!item) return Nothing{};
@@ -136,7 +141,10 @@ ServerEvent ServerHost::next(std::chrono::steady_clock::time_point deadline) {
 }
 
 Queued ServerHost::peek() const {
-    impl_->reactor_.poll();
+    if (SteadyClock::now() - impl_->lookedAt_ > lookAgain) {
+        impl_->reactor_.poll();
+        impl_->lookedAt_ = SteadyClock::now();
+    }
     return impl_->inbox_.peek();
 }
 

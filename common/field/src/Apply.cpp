@@ -48,7 +48,7 @@ Result<void> Aspect::applyCreations(Reader& from, std::uint32_t count, Applied* 
         if (!id) return refused(from, "a container with id 0");
         if (!own && space_ != 0 && id.space() == space_)
             return refused(from, numberOf(id) + " is not the sender's to create");
-        if (containers_.contains(id)) return refused(from, numberOf(id) + " is created twice");
+        if (containers_.find(id) != nullptr) return refused(from, numberOf(id) + " is created twice");
         FieldContainer& made = insert(*type, id);
         if (own) nextCounter_ = std::max(nextCounter_, id.counter() + 1);
         if (own && recorded(made)) listCreated(made);
@@ -61,13 +61,14 @@ Result<void> Aspect::applyChanges(Reader& from, std::uint32_t count,
                                   std::vector<FieldContainer*>& touched, Applied* applied,
                                   bool own) {
     touched.reserve(std::min<std::size_t>(count, from.remaining() / 12));
+    ContainerTable::Cursor containers{containers_};
     for (std::uint32_t i = 0; i < count; ++i) {
         const Id id = from.id();
         const auto mask = from.scalar<Mask>();
         if (from.failed()) return refused(from, from.why());
-        const auto found = containers_.find(id);
-        if (found == containers_.end()) return refused(from, numberOf(id) + " does not exist");
-        FieldContainer& container = *found->second;
+        FieldContainer* const found = containers.find(id);
+        if (found == nullptr) return refused(from, numberOf(id) + " does not exist");
+        FieldContainer& container = *found;
         const auto where = [&] { return numberOf(id) + " (" + container.type_->name + "): "; };
         if (!own && space_ != 0 && id.space() == space_)
             return refused(from, where() + "not the sender's to change");
@@ -95,13 +96,13 @@ Result<void> Aspect::applyReleases(Reader& from, std::uint32_t count,
     for (std::uint32_t i = 0; i < count; ++i) {
         const Id id = from.id();
         if (from.failed()) return refused(from, from.why());
-        const auto found = containers_.find(id);
-        if (found == containers_.end() || found->second->dropped_)
+        FieldContainer* const found = containers_.find(id);
+        if (found == nullptr || found->dropped_)
             return refused(from, numberOf(id) + " does not exist");
         if (!own && space_ != 0 && id.space() == space_)
             return refused(from, numberOf(id) + " is not the sender's to release");
-        drop(*found->second, nullptr);
-        going.push_back(found->second.get());
+        drop(*found, nullptr);
+        going.push_back(found);
     }
     return {};
 }

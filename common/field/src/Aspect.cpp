@@ -55,7 +55,7 @@ FieldContainer& Aspect::insert(const TypeInfo& type, Id id) {
     container->type_ = &type;
     container->aspect_ = this;
     FieldContainer& made = *container;
-    containers_.emplace(id, std::move(container));
+    containers_.insert(id, std::move(container));
     stale(made);
     return made;
 }
@@ -73,10 +73,7 @@ void Aspect::listCreated(FieldContainer& container) {
     created_.push_back(&container);
 }
 
-const FieldContainer* Aspect::find(Id id) const noexcept {
-    const auto found = containers_.find(id);
-    return found == containers_.end() ? nullptr : found->second.get();
-}
+const FieldContainer* Aspect::find(Id id) const noexcept { return containers_.find(id); }
 
 void Aspect::beginEdit(const FieldContainer& container) const {
     if (container.id_.space() != space_)
@@ -108,15 +105,13 @@ Result<void> Aspect::countUses() {
     if (log_.empty()) return {};
     Id missing;
     for (const Id id : log_.addedRefs) {
-        const auto found = containers_.find(id);
-        if (found == containers_.end())
-            missing = id;
+        if (FieldContainer* found = containers_.find(id))
+            ++found->references_;
         else
-            ++found->second->references_;
+            missing = id;
     }
     for (const Id id : log_.droppedRefs) {
-        const auto found = containers_.find(id);
-        if (found != containers_.end()) --found->second->references_;
+        if (FieldContainer* found = containers_.find(id)) --found->references_;
     }
     for (const Payload& payload : log_.addedPayloads) payloads_.use(payload);
     for (const Payload& payload : log_.droppedPayloads)
@@ -150,14 +145,11 @@ Result<void> Aspect::destroyTree(const FieldContainer& container) {
     if (container.references_ > 0) return destroy(container);
     std::vector<Id> open{container.id_};
     while (!open.empty()) {
-        const auto found = containers_.find(open.back());
+        FieldContainer* gone = containers_.find(open.back());
         open.pop_back();
-        if (found == containers_.end() || found->second->references_ > 0 ||
-            found->first.space() != space_)
-            continue;
-        FieldContainer& gone = *found->second;
-        drop(gone, &open);
-        erase(gone);
+        if (gone == nullptr || gone->references_ > 0 || gone->id_.space() != space_) continue;
+        drop(*gone, &open);
+        erase(*gone);
     }
     return {};
 }
@@ -223,8 +215,9 @@ ChangeList Aspect::commit() {
 
 ChangeList Aspect::snapshot() const {
     std::vector<const FieldContainer*> sorted;
-    for (const auto& [id, container] : containers_)
-        if (recorded(*container)) sorted.push_back(container.get());
+    containers_.forEach([&](const FieldContainer& container) {
+        if (recorded(container)) sorted.push_back(&container);
+    });
     std::sort(sorted.begin(), sorted.end(),
               [](const auto* a, const auto* b) { return a->id() < b->id(); });
     Writer to;
@@ -261,14 +254,14 @@ std::uint64_t Aspect::computeDigest(const FieldContainer& container) {
 }
 
 std::uint64_t Aspect::digest() {
+    ContainerTable::Cursor containers{containers_};
     for (const Id id : staleDigests_) {
-        const auto found = containers_.find(id);
-        if (found == containers_.end()) continue;
-        FieldContainer& container = *found->second;
-        const auto now = computeDigest(container);
-        digest_ += now - container.digest_;
-        container.digest_ = now;
-        container.digestStale_ = false;
+        FieldContainer* container = containers.find(id);
+        if (container == nullptr) continue;
+        const auto now = computeDigest(*container);
+        digest_ += now - container->digest_;
+        container->digest_ = now;
+        container->digestStale_ = false;
     }
     staleDigests_.clear();
     return digest_;

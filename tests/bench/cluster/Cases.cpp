@@ -23,7 +23,8 @@ double microseconds(Clock::duration span) {
 
 /// Nearest rank.
 double quantile(std::vector<double>& values, double share) {
-    const auto rank = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+    const auto rank =
+        static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
     const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);
     std::nth_element(values.begin(), at, values.end());
     return *at;
@@ -36,22 +37,19 @@ field::Payload noise(unsigned seed) {
     return field::Payload{std::move(bytes)};
 }
 
-/// Calls @p once until the time is over, at least five times, and keeps what each took. What it
-/// returns is not counted: the work between two frames.
+/// Calls @p once until the time is over, at least five times, and keeps what each took.
 template <class Once>
 std::vector<double> repeat(double seconds, Once once) {
     std::vector<double> taken;
     const auto end = Clock::now() + std::chrono::duration<double>{seconds};
-    while (taken.size() < 5 || (Clock::now() < end && taken.size() < mostSamples))
-        taken.push_back(microseconds(once()));
+    auto since = Clock::now();
+    while (taken.size() < 5 || (since < end && taken.size() < mostSamples)) {
+        once();
+        const auto now = Clock::now();
+        taken.push_back(microseconds(now - since));
+        since = now;
+    }
     return taken;
-}
-
-template <class Fn>
-Clock::duration timed(Fn fn) {
-    const auto since = Clock::now();
-    fn();
-    return Clock::now() - since;
 }
 
 std::vector<double> frames(const ClusterOptions& options, int transforms, double seconds) {
@@ -66,8 +64,7 @@ std::vector<double> frames(const ClusterOptions& options, int transforms, double
         ++step;
         for (const scene::Transform* one : moved)
             field::edit(*one)->matrix = math::Affine{.translation = {step, 0, 0}};
-        field::ChangeList changes = aspect.commit();
-        return timed([&] { cluster.hub().frame(std::move(changes), step); });
+        cluster.hub().frame(aspect.commit(), step);
     };
     for (int i = 0; i < 20; ++i) once();
     return repeat(seconds, once);
@@ -84,8 +81,7 @@ std::vector<double> bulk(const ClusterOptions& options, double seconds) {
     return repeat(seconds, [&] {
         field::edit(mesh)->positions = payloads[next];
         next = 1 - next;
-        field::ChangeList changes = aspect.commit();
-        return timed([&] { cluster.hub().frame(std::move(changes), 0); });
+        cluster.hub().frame(aspect.commit(), 0);
     });
 }
 
@@ -101,7 +97,9 @@ std::vector<double> sync(const ClusterOptions& options) {
                 edit->addChild(scene::makeNode<scene::Transform>(aspect, "node").node);
         }
         cluster.hub().frame(aspect.commit(), 0);
-        taken.push_back(microseconds(timed([&] { cluster.join(); })));
+        const auto since = Clock::now();
+        cluster.join();
+        taken.push_back(microseconds(Clock::now() - since));
     }
     return taken;
 }
@@ -111,6 +109,7 @@ std::vector<double> sync(const ClusterOptions& options) {
 Row measure(const std::string& name, const ClusterOptions& options, double seconds) {
     Row row{.name = name,
             .servers = options.servers,
+            .pipeline = options.pipeline,
             .relay = options.relay,
             .tls = !options.key.empty()};
     std::vector<double> taken;
@@ -121,8 +120,7 @@ Row measure(const std::string& name, const ClusterOptions& options, double secon
         row.bytes = static_cast<double>(bulkBytes) * options.servers;
     } else if (name == "sync") {
         taken = sync(options);
-    } else if (name == "idle" ||
-               std::from_chars(name.data(), end, transforms).ptr == end) {
+    } else if (name == "idle" || std::from_chars(name.data(), end, transforms).ptr == end) {
         taken = frames(options, transforms, seconds);
     } else {
         throw Failure{Errc::config, "case \"" + name + "\", expected idle, bulk, sync or a number"};

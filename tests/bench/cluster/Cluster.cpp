@@ -29,9 +29,9 @@ Cluster::Cluster(const ClusterOptions& options) {
     std::vector<client::LaunchCommand> commands;
     for (int i = 0; i < options.servers; ++i) {
         const auto name = fmt::format("server{}", i);
-        client::LaunchCommand command{
-            .server = name,
-            .arguments = {options.program, "--name", name, "--backend", "none", "--exit-with-client"}};
+        client::LaunchCommand command{.server = name,
+                                      .arguments = {options.program, "--name", name, "--backend",
+                                                    "none", "--exit-with-client"}};
         if (!options.key.empty()) {
             command.arguments.emplace_back("--key");
             command.arguments.push_back(options.key);
@@ -55,19 +55,22 @@ Cluster::Cluster(const ClusterOptions& options) {
         const auto count = static_cast<std::size_t>(options.servers);
         if (!heard->changed.wait_until(lock, in(120s),
                                        [&] { return heard->servers.size() == count; }))
-            throw Failure{Errc::timeout,
-                          fmt::format("{} of {} servers listen; last words: {}",
-                                      heard->servers.size(), count, heard->last)};
+            throw Failure{Errc::timeout, fmt::format("{} of {} servers listen; last words: {}",
+                                                     heard->servers.size(), count, heard->last)};
         addresses_ = heard->servers;
     }
     net::SharedKey key;
     if (!options.key.empty())
         key = std::make_shared<const net::ClusterKey>(orThrow(net::ClusterKey::load(options.key)));
     hub_ = std::make_unique<net::ClientHub>(
-        types_, net::SyncOptions{.timeout = 20s, .pipeline = 0, .digestEvery = 0},
-        net::HubHooks{.log = [](net::LogLevel, const std::string& text) {
-            std::fprintf(stderr, "%s\n", text.c_str());
-        }},
+        types_, net::SyncOptions{.timeout = 20s, .pipeline = options.pipeline, .digestEvery = 0},
+        net::HubHooks{.log =
+                          [](net::LogLevel level, const std::string& text) {
+                              // That there is nothing to draw is meant.
+                              if (text.find("no window of the scene") != std::string::npos) return;
+                              if (level >= net::LogLevel::warning)
+                                  std::fprintf(stderr, "%s\n", text.c_str());
+                          }},
         key);
 }
 

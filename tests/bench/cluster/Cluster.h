@@ -13,6 +13,7 @@ struct ClusterOptions {
     std::filesystem::path program = {};  ///< gnomon-server
     int servers = 1;
     std::filesystem::path key = {};  ///< cluster key: TLS; empty: in the clear
+    int pipeline = 1;                ///< SyncOptions::pipeline
     int relay = 0;                   ///< servers a machine sends to itself; 0: all
 };
 

@@ -1,8 +1,8 @@
 // What a cluster costs without the drawing: frames, bulk data and the first sync, against the
 // number of servers. Every server is a process of its own on this machine.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <nlohmann/json.hpp>
@@ -22,6 +22,8 @@ int main(int argc, char** argv) {
         ->delimiter(',');
     program.add_option("--servers", servers, "numbers of servers")->delimiter(',');
     program.add_option("--seconds", seconds, "for each case");
+    program.add_option("--pipeline", options.pipeline, "frames the client runs ahead, 0 to 2")
+        ->capture_default_str();
     program.add_option("--key", options.key, "cluster key: with TLS");
     CLI11_PARSE(program, argc, argv);
     try {
@@ -32,6 +34,7 @@ int main(int argc, char** argv) {
                 // A line of JSON each: scripts/bench-net makes tables of them.
                 fmt::print("{}\n", nlohmann::json{{"case", row.name},
                                                   {"servers", row.servers},
+                                                  {"pipeline", row.pipeline},
                                                   {"relay", row.relay},
                                                   {"tls", row.tls},
                                                   {"samples", row.samples},

@@ -16,13 +16,14 @@ namespace gnomon::net {
 /// The client's end: keeps the session aspect, drives all servers in step, and never waits long
 /// for one that fails.
 ///
-/// One Asio thread of its own holds the sockets and the session aspect (space 1). The functions
-/// belong to the application's thread; frame() and takeImages() must not be called by two threads.
+/// The sockets and the session aspect (space 1) are worked on by whoever waits in frame(),
+/// waitForAll() or takeImages(), and by a thread of the hub's own while the application is away.
+/// The functions belong to one thread, the application's.
 class ClientHub {
 public:
     using Deadline = std::chrono::steady_clock::time_point;
 
-    /// @param types  complete: read by the hub's thread from now on, so nothing may be added.
+    /// @param types  complete: the hub's thread reads it, so nothing may be added from now on.
     /// @param key    of the cluster: every server must have it, and all is sealed by TLS. Null:
     ///               only servers on loopback addresses are spoken to, in the clear.
     ClientHub(const field::TypeRegistry& types, SyncOptions options, HubHooks hooks,

@@ -32,7 +32,8 @@ struct SyncOptions {
     std::chrono::milliseconds pingInterval{250};
 };
 
-/// Callbacks on the hub's thread. None may call the hub.
+/// Callbacks, one at a time, on the application's thread within its calls or on the hub's own.
+/// None may call the hub.
 struct HubHooks {
     /// After the application's list of a frame was applied to the session aspect. May create and
     /// edit containers of the session's own space (1); they travel with the same frame.

@@ -52,7 +52,7 @@ public:
 
     /// Waits for the next event, in order; Nothing at the deadline.
     ServerEvent next(std::chrono::steady_clock::time_point deadline);
-    /// Without waiting: is more there already?
+    /// Without waiting: is more there already, or was a millisecond ago?
     Queued peek() const;
 
     // Each is dropped silently when the client is gone.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gnomon/field/ChangeList.h>
+#include <gnomon/field/ContainerTable.h>
 #include <gnomon/field/FieldContainer.h>
 
 #include <memory>
@@ -70,7 +71,7 @@ public:
     }
     template <class Fn>
     void forEach(Fn&& fn) const {
-        for (const auto& [id, container] : containers_) fn(*container);
+        containers_.forEach([&](const FieldContainer& container) { fn(container); });
     }
     std::size_t size() const noexcept { return containers_.size(); }
     const TypeRegistry& types() const noexcept { return types_; }
@@ -133,7 +134,7 @@ private:
     const std::uint16_t space_;
     const bool recordLocal_;
     std::uint64_t nextCounter_ = 1;
-    std::unordered_map<Id, std::unique_ptr<FieldContainer>> containers_;
+    ContainerTable containers_;
     PayloadStore payloads_;
     std::vector<Hash128> unusedPayloads_;
 
