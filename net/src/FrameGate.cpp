@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "LargePages.h"
+
 namespace gnomon::net {
 namespace {
 
@@ -11,7 +13,7 @@ namespace {
 constexpr std::size_t eventBytes = 256;
 
 /// Reserved for a payload before its bytes are there: address space, no memory yet.
-constexpr std::size_t atOnce = std::size_t{64} << 20U;
+constexpr std::size_t atOnce = std::size_t{1} << 30U;
 
 std::size_t bytesOf(const field::ChangeList& changes) { return changes.bytes.size() + eventBytes; }
 
@@ -41,7 +43,7 @@ Result<void> FrameGate::payload(const wire::Payload& part) {
     if (upload.bytes.capacity() < upload.bytes.size() + part.tail.size()) {
         // Doubling, but not beyond the size that was announced.
         const auto doubled = std::max(2 * (upload.bytes.size() + part.tail.size()), atOnce);
-        upload.bytes.reserve(std::min<std::size_t>(doubled, upload.total));
+        reserveInLargePages(upload.bytes, std::min<std::size_t>(doubled, upload.total));
     }
     upload.bytes.insert(upload.bytes.end(), part.tail.begin(), part.tail.end());
     if (upload.bytes.size() < upload.total) return {};
