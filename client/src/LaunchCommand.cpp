@@ -91,6 +91,11 @@ std::string LaunchCommand::text() const {
     return quoted(environment) + (environment.empty() ? "" : " ") + quoted(arguments);
 }
 
+std::vector<std::string> serverEnvironment() {
+    if (std::getenv("GLIBC_TUNABLES") != nullptr) return {};
+    return {"GLIBC_TUNABLES=glibc.malloc.hugetlb=1"};
+}
+
 unsigned rasterizerThreads(unsigned servers, unsigned cores) noexcept {
     return servers == 0 || servers >= cores ? 0 : cores / servers;
 }
@@ -110,6 +115,8 @@ std::vector<LaunchCommand> launchCommands(const config::Config& config,
                                 .host = server.host,
                                 .arguments = farWords(config.cluster, server, settings)});
     }
+    for (auto& command : commands)
+        if (command.host == LaunchCommand{}.host) command.environment = serverEnvironment();
     // Someone who set it knows better.
     if (std::getenv("LP_NUM_THREADS") == nullptr) {
         const auto isLocal = [](const LaunchCommand& command) {

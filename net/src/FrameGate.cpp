@@ -12,7 +12,7 @@ namespace {
 /// What an event takes beside its change list: many tiny ones must count, too.
 constexpr std::size_t eventBytes = 256;
 
-/// Reserved for a payload before its bytes are there: address space, no memory yet.
+/// Reserved before the bytes are there: address space, no memory yet.
 constexpr std::size_t atOnce = std::size_t{1} << 30U;
 
 std::size_t bytesOf(const field::ChangeList& changes) { return changes.bytes.size() + eventBytes; }
@@ -66,6 +66,7 @@ Result<void> FrameGate::snapshot(const wire::Snapshot& part) {
     if (snapshot_.size() != part.offset)
         return fail(Errc::protocol, fmt::format("Snapshot at byte {}: found byte {}",
                                                 snapshot_.size(), part.offset));
+    if (part.offset == 0) reserveInLargePages(snapshot_, std::min<std::size_t>(part.total, atOnce));
     snapshot_.insert(snapshot_.end(), part.tail.begin(), part.tail.end());
     if (snapshot_.size() < part.total) return {};
 

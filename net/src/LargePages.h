@@ -14,7 +14,8 @@ inline void reserveInLargePages(std::vector<std::byte>& bytes, std::size_t size)
     constexpr std::uintptr_t page = std::uintptr_t{2} << 20U;
     bytes.reserve(size);
     const auto begin = (reinterpret_cast<std::uintptr_t>(bytes.data()) + page - 1) & ~(page - 1);
-    const auto end = reinterpret_cast<std::uintptr_t>(bytes.data() + bytes.capacity()) & ~(page - 1);
+    const auto end =
+        reinterpret_cast<std::uintptr_t>(bytes.data() + bytes.capacity()) & ~(page - 1);
     // Where the system knows none, nothing is lost.
     if (begin < end)
         ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);  // NOLINT

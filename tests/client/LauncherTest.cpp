@@ -142,6 +142,7 @@ config::Config threeServers(config::Launch launch = config::Launch::none) {
     config.servers.push_back({.name = "far", .host = "wall01", .port = 7430});
     config.servers.push_back({.name = "it's right"});
     ::unsetenv("LP_NUM_THREADS");
+    ::unsetenv("GLIBC_TUNABLES");
     return config;
 }
 
@@ -150,10 +151,12 @@ TEST(LaunchCommands, AreWhatTheConfigAsksFor) {
         threeServers(), {.program = "/opt/gnomon-server", .backend = "egl", .cores = 8});
     ASSERT_EQ(commands.size(), 2U);
     EXPECT_EQ(commands[0].text(),
-              "LP_NUM_THREADS=4 /opt/gnomon-server --name left --listen 127.0.0.1:7431 --backend "
+              "GLIBC_TUNABLES=glibc.malloc.hugetlb=1 LP_NUM_THREADS=4 "
+              "/opt/gnomon-server --name left --listen 127.0.0.1:7431 --backend "
               "egl --gpu 1");
     EXPECT_EQ(commands[1].text(),
-              "LP_NUM_THREADS=4 /opt/gnomon-server --name 'it'\\''s right' --listen 127.0.0.1:0 "
+              "GLIBC_TUNABLES=glibc.malloc.hugetlb=1 LP_NUM_THREADS=4 "
+              "/opt/gnomon-server --name 'it'\\''s right' --listen 127.0.0.1:0 "
               "--backend egl");
 }
 
@@ -175,7 +178,8 @@ TEST_P(EveryLaunch, StartsServersElsewhereAndHereInTheirOrder) {
                                                   .farKey = "/etc/a.key"});
     ASSERT_EQ(commands.size(), 3U);
     EXPECT_EQ(commands[0].text(),
-              "LP_NUM_THREADS=4 /opt/gnomon-server --name left --listen 127.0.0.1:7431 --backend "
+              "GLIBC_TUNABLES=glibc.malloc.hugetlb=1 LP_NUM_THREADS=4 "
+              "/opt/gnomon-server --name left --listen 127.0.0.1:7431 --backend "
               "egl --gpu 1 --key /etc/a.key");
     EXPECT_EQ(commands[0].host, "127.0.0.1");
     EXPECT_EQ(commands[1].server, "far");

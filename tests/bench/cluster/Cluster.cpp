@@ -31,7 +31,8 @@ Cluster::Cluster(const ClusterOptions& options) {
         const auto name = fmt::format("server{}", i);
         client::LaunchCommand command{.server = name,
                                       .arguments = {options.program, "--name", name, "--backend",
-                                                    "none", "--exit-with-client"}};
+                                                    "none", "--exit-with-client"},
+                                      .environment = client::serverEnvironment()};
         if (!options.key.empty()) {
             command.arguments.emplace_back("--key");
             command.arguments.push_back(options.key);

@@ -37,6 +37,11 @@ struct LaunchSettings {
 std::vector<LaunchCommand> launchCommands(const config::Config& config,
                                           const LaunchSettings& settings);
 
+/// What local servers find in their environment unless the user's says otherwise: their heap lies
+/// in pages of 2 MiB where the system has them. To fault in a scene in pages of 4 KiB takes longer
+/// than to build it, most of all in a virtual machine.
+std::vector<std::string> serverEnvironment();
+
 /// Worker threads of Mesa's software rasterizer for each of @p servers on @p cores: 0 (everything
 /// in the server's own thread) where there are as many servers as cores.
 unsigned rasterizerThreads(unsigned servers, unsigned cores) noexcept;
