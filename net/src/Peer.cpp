@@ -29,7 +29,7 @@ Peer::Peer(asio::io_context& io, ServerAddress address, const SyncOptions& optio
       options_{options},
       owner_{owner},
       tls_{std::move(tls)},
-      resolver_{io},
+      dialer_{io, tls_ != nullptr},
       timer_{io},
       pingTimer_{io} {}
 
@@ -49,7 +49,6 @@ void Peer::open(ServerAddress address) {
 
 void Peer::connect() {
     if (stopping_) return;
-    ++attempt_;
     state_ = ServerState::connecting;
     owner_.changed();
     timer_.after(std::min(connectLimit, options_.startTimeout), [this] {
@@ -59,43 +58,10 @@ void Peer::connect() {
 }
 
 void Peer::dial(Connected then) {
-    error_code ec;
-    const auto address = asio::ip::make_address(address_.host, ec);
-    if (!ec) return dialTo({tcp::endpoint{address, address_.port}}, then);
-    resolver_.async_resolve(
-        address_.host, std::to_string(address_.port),
-        [this, then, mine = attempt_](error_code failed, tcp::resolver::results_type found) {
-            if (mine != attempt_) return;
-            if (failed) return drop({.code = Errc::disconnected, .what = label(), .cause = failed});
-            std::vector<tcp::endpoint> ends;
-            for (const auto& entry : found) ends.push_back(entry.endpoint());
-            dialTo(std::move(ends), then);
-        });
-}
-
-void Peer::dialTo(std::vector<tcp::endpoint> ends, Connected then) {
-    if (!tls_) {
-        std::erase_if(ends, [](const tcp::endpoint& end) { return !isLoopback(end.address()); });
-        if (ends.empty())
-            return drop({.code = Errc::config,
-                         .what = label() + ": other computers are only spoken to with a cluster "
-                                           "key, and there is none"});
-    }
-    dialling_ = std::make_shared<tcp::socket>(io_);
-    auto to = std::make_shared<const std::vector<tcp::endpoint>>(std::move(ends));
-    asio::async_connect(
-        *dialling_, *to,
-        [this, then, to, socket = dialling_, mine = attempt_](error_code ec, const tcp::endpoint&) {
-            if (mine != attempt_) return;
-            error_code ignored;
-            // A loopback port nobody listens on can connect to itself, and would keep the server
-            // from ever having it.
-            if (!ec && socket->local_endpoint(ignored) == socket->remote_endpoint(ignored))
-                ec = asio::error::connection_refused;
-            if (ec) return drop({.code = Errc::disconnected, .what = label(), .cause = ec});
-            dialling_.reset();
-            (this->*then)(std::move(*socket));
-        });
+    dialer_.dial(address_.host, address_.port, label(), [this, then](Result<tcp::socket> socket) {
+        if (!socket) return drop(std::move(socket).error());
+        (this->*then)(*std::move(socket));
+    });
 }
 
 std::unique_ptr<TlsSession> Peer::seal() const {
@@ -290,12 +256,7 @@ void Peer::closed(Channel& channel, Error why) {
 void Peer::closeAll() {
     timer_.cancel();
     pingTimer_.cancel();
-    resolver_.cancel();
-    if (dialling_) {
-        error_code ignored;
-        dialling_->close(ignored);
-        dialling_.reset();
-    }
+    dialer_.cancel();
     if (control_) {
         pastControlBytes_ += control_->bytesSent();
         pastControlWrites_ += control_->writes();
@@ -315,7 +276,6 @@ void Peer::closeAll() {
 }
 
 void Peer::drop(Error why) {
-    ++attempt_;
     closeAll();
     state_ = ServerState::waiting;
     lastError_ = why.text();
@@ -334,7 +294,6 @@ void Peer::drop(Error why) {
 
 void Peer::stop() {
     stopping_ = true;
-    ++attempt_;
     if (!control_ || !control_->isOpen()) {
         closeAll();
         state_ = ServerState::waiting;

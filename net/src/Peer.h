@@ -10,6 +10,7 @@
 #include "BulkSender.h"
 #include "Channel.h"
 #include "ClockFilter.h"
+#include "Dialer.h"
 #include "Timer.h"
 
 namespace gnomon::net {
@@ -106,7 +107,6 @@ private:
 
     void connect();
     void dial(Connected then);
-    void dialTo(std::vector<tcp::endpoint> ends, Connected then);
     void greet(tcp::socket socket);
     void awaitHello();
     std::unique_ptr<TlsSession> seal() const;
@@ -126,10 +126,8 @@ private:
     const std::shared_ptr<const TlsContext> tls_;
     ServerState state_ = ServerState::waiting;
     bool stopping_ = false;
-    std::uint64_t attempt_ = 0;  // callbacks of earlier ones are stale
     std::uint64_t token_ = 0;
-    std::shared_ptr<tcp::socket> dialling_;
-    tcp::resolver resolver_;
+    Dialer dialer_;
     std::shared_ptr<Channel> control_;
     std::shared_ptr<Channel> bulkChannel_;
     BulkSender bulk_;
