@@ -17,12 +17,14 @@ std::chrono::milliseconds milliseconds(double seconds) {
     return std::chrono::milliseconds{static_cast<std::int64_t>(seconds * 1000.0)};
 }
 
-net::SyncOptions syncOptions(const config::Sync& sync) {
+net::SyncOptions syncOptions(const config::Config& config) {
+    const config::Sync& sync = config.sync;
     net::SyncOptions options;
     options.timeout = milliseconds(sync.timeout);
     options.startTimeout = milliseconds(sync.startTimeout);
     options.waitForLate = sync.onTimeout == config::OnTimeout::wait;
     options.pipeline = sync.pipeline;
+    options.relay = config.cluster.relay;
     return options;
 }
 
@@ -41,7 +43,7 @@ LogCallback oneAtATime(LogCallback log) {
 ServerLink::ServerLink(const config::Config& config, const field::TypeRegistry& types,
                        const ApplicationOptions& options)
     : log_{oneAtATime(options.log)},
-      sync_{syncOptions(config.sync)},
+      sync_{syncOptions(config)},
       keyFile_{orThrow(findKeyFile(config, options))},
       hub_{types, sync_, hooks(), orThrow(loadKey(keyFile_))} {
     for (const auto& server : config.servers)

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gnomon/net/Codec.h>
 #include <gnomon/net/MessageType.h>
+#include <gnomon/net/ServerMessages.h>
 
 namespace gnomon::net {
 namespace detail {
@@ -46,10 +47,17 @@ Limit limitOf(Route route, std::uint32_t type) noexcept {
                 case swap:
                 case ping:
                 case bye:
+                case relayEnd:
                     return upTo(kib);
+                case relay:
+                    return upTo(16 * mib);
                 default:
                     return {};
             }
+        case Route::toServerRelay:
+            return message == payload ? upTo(mib) : Limit{};
+        case Route::toRelay:
+            return message == refused ? upTo(64 * kib) : Limit{};
         case Route::toServerBulk:
             return message == payload || message == snapshot ? upTo(mib) : Limit{};
         case Route::toClientControl:
@@ -58,7 +66,10 @@ Limit limitOf(Route route, std::uint32_t type) noexcept {
                     return upTo(mib);
                 case refused:
                 case log:
+                case relayLost:
                     return upTo(64 * kib);
+                case digests:
+                    return upTo(12 + maxDigests * wire::OneDigest::wireBytes);
                 case depth:
                 case ready:
                 case digest:
@@ -91,6 +102,10 @@ std::string_view name(MessageType type) noexcept {
             return "Ping";
         case bye:
             return "Bye";
+        case relay:
+            return "Relay";
+        case relayEnd:
+            return "RelayEnd";
         case payload:
             return "Payload";
         case snapshot:
@@ -103,12 +118,16 @@ std::string_view name(MessageType type) noexcept {
             return "Ready";
         case digest:
             return "Digest";
+        case digests:
+            return "Digests";
         case event:
             return "Event";
         case pong:
             return "Pong";
         case log:
             return "Log";
+        case relayLost:
+            return "RelayLost";
         case image:
             return "Image";
     }

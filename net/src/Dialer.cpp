@@ -11,8 +11,8 @@ void Dialer::dial(const std::string& host, std::uint16_t port, std::string label
     if (!ec) return connect({tcp::endpoint{address, port}});
     resolver_.async_resolve(
         host, std::to_string(port),
-        [this, alive = std::weak_ptr{alive_}, mine = attempt_](
-            error_code failed, tcp::resolver::results_type found) {
+        [this, alive = std::weak_ptr{alive_}, mine = attempt_](error_code failed,
+                                                               tcp::resolver::results_type found) {
             if (alive.expired() || mine != attempt_) return;
             if (failed)
                 return finish(tl::unexpected{
@@ -27,10 +27,9 @@ void Dialer::connect(std::vector<tcp::endpoint> ends) {
     if (!anywhere_) {
         std::erase_if(ends, [](const tcp::endpoint& end) { return !isLoopback(end.address()); });
         if (ends.empty())
-            return finish(
-                fail(Errc::config,
-                     label_ +
-                         ": other computers are only spoken to with a cluster key, and there is "
+            return finish(fail(
+                Errc::config,
+                label_ + ": other computers are only spoken to with a cluster key, and there is "
                          "none"));
     }
     socket_ = std::make_shared<tcp::socket>(io_);
@@ -47,8 +46,8 @@ void Dialer::connect(std::vector<tcp::endpoint> ends) {
                 ec = asio::error::connection_refused;
             socket_.reset();
             if (ec)
-                return finish(tl::unexpected{
-                    Error{.code = Errc::disconnected, .what = label_, .cause = ec}});
+                return finish(
+                    tl::unexpected{Error{.code = Errc::disconnected, .what = label_, .cause = ec}});
             finish(std::move(*socket));
         });
 }

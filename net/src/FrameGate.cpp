@@ -23,17 +23,19 @@ std::string text(const field::Hash128& hash) {
 
 }  // namespace
 
-Result<void> FrameGate::payload(const wire::Payload& part) {
-    if (!upload_) {
+Result<void> FrameGate::payload(const wire::Payload& part, Source source) {
+    relayed_ |= source == Source::relay;
+    auto& slot = upload(source);
+    if (!slot) {
         if (part.offset != 0)
             return fail(Errc::protocol, "payload " + text(part.hash) + " does not begin at byte 0");
         if (part.total > budget_ - std::min(budget_, keptBytes_))
             return fail(Errc::limit, fmt::format("payloads of {} bytes and another of {}: the "
                                                  "limit is {}",
                                                  keptBytes_, part.total, budget_));
-        upload_ = Upload{.hash = part.hash, .serial = part.serial, .total = part.total};
+        slot = Upload{.hash = part.hash, .serial = part.serial, .total = part.total};
     }
-    Upload& upload = *upload_;
+    Upload& upload = *slot;
     if (upload.hash != part.hash || upload.serial != part.serial || upload.total != part.total ||
         upload.bytes.size() != part.offset)
         return fail(Errc::protocol,
@@ -46,39 +48,79 @@ Result<void> FrameGate::payload(const wire::Payload& part) {
         reserveInLargePages(upload.bytes, std::min<std::size_t>(doubled, upload.total));
     }
     upload.bytes.insert(upload.bytes.end(), part.tail.begin(), part.tail.end());
-    if (upload.bytes.size() < upload.total) return {};
+    bytesArrived_ += part.tail.size();
+    if (upload.bytes.size() < upload.total) {
+        if (watch_ != nullptr) watch_->arriving(part);
+        return {};
+    }
+    Upload whole = std::move(*slot);
+    slot.reset();
+    return keep(std::move(whole));
+}
 
-    Upload whole = std::move(*upload_);
-    upload_.reset();
+Result<void> FrameGate::keep(Upload whole) {
     field::Payload payload{std::move(whole.bytes)};
     if (payload.hash() != whole.hash)
         return fail(Errc::protocol,
                     fmt::format("payload {} of {} bytes has the content hash {}", text(whole.hash),
                                 whole.total, text(payload.hash())));
+    if (watch_ != nullptr) watch_->arrived(whole.serial, payload);
+    if (released_.contains(whole.serial)) return {};  // came from elsewhere before
     auto& kept = kept_[whole.hash];
     if (!kept.payload) keptBytes_ += payload.size();
-    kept = {.payload = std::move(payload), .serial = whole.serial};
+    kept = {.payload = std::move(payload), .serial = std::max(whole.serial, kept.serial)};
     return drain();
 }
 
+std::span<const std::byte> FrameGate::unfinished(std::uint64_t serial) const noexcept {
+    std::span<const std::byte> most;
+    for (const auto& upload : uploads_)
+        if (upload && upload->serial == serial && upload->bytes.size() > most.size())
+            most = upload->bytes;
+    return most;
+}
+
 Result<void> FrameGate::snapshot(const wire::Snapshot& part) {
-    if (started_) return fail(Errc::protocol, "a second Snapshot");
+    if (started_ || beginning_) return fail(Errc::protocol, "a second Snapshot");
     if (snapshot_.size() != part.offset)
         return fail(Errc::protocol, fmt::format("Snapshot at byte {}: found byte {}",
                                                 snapshot_.size(), part.offset));
     if (part.offset == 0) reserveInLargePages(snapshot_, std::min<std::size_t>(part.total, atOnce));
     snapshot_.insert(snapshot_.end(), part.tail.begin(), part.tail.end());
+    bytesArrived_ += part.tail.size();
     if (snapshot_.size() < part.total) return {};
 
-    started_ = true;
-    first_ = lastFrame_ = part.n;
-    Snapshot whole{.n = part.n, .time = part.time, .changes = {.bytes = std::move(snapshot_)}};
+    auto body = decode<wire::SnapshotBody>(snapshot_);
+    if (!body) return tl::unexpected{std::move(body).error()};
+    const auto head = static_cast<std::ptrdiff_t>(snapshot_.size() - body->tail.size());
+    snapshot_.erase(snapshot_.begin(), snapshot_.begin() + head);
+    beginning_ = WaitingSnapshot{
+        .snapshot = {.n = part.n, .time = part.time, .changes = {.bytes = std::move(snapshot_)}},
+        .needed = std::move(body->needed)};
     snapshot_ = {};
-    // Bulk keeps its order, so what has come until now is what the snapshot names.
-    for (const auto& [hash, kept] : kept_) whole.changes.payloads.push_back(kept.payload);
-    const std::size_t bytes = bytesOf(whole.changes);
-    emit_(std::move(whole), bytes);
     return drain();
+}
+
+bool FrameGate::haveAll(const std::vector<wire::PayloadName>& needed) const {
+    return std::all_of(needed.begin(), needed.end(),
+                       [&](const auto& name) { return kept_.contains(name.hash); });
+}
+
+void FrameGate::give(const std::vector<wire::PayloadName>& needed,
+                     field::ChangeList& changes) const {
+    for (const auto& name : needed)
+        changes.payloads.push_back(kept_.find(name.hash)->second.payload);
+}
+
+/// Hands the snapshot on, now that all it names is there.
+void FrameGate::begin() {
+    Snapshot& snapshot = beginning_->snapshot;
+    give(beginning_->needed, snapshot.changes);
+    started_ = true;
+    first_ = lastFrame_ = snapshot.n;
+    const std::size_t bytes = bytesOf(snapshot.changes);
+    emit_(std::move(snapshot), bytes);
+    beginning_.reset();
 }
 
 Result<void> FrameGate::frame(wire::Frame message) {
@@ -87,6 +129,7 @@ Result<void> FrameGate::frame(wire::Frame message) {
                   .time = message.time,
                   .capture = (message.flags & wire::Frame::capture) != 0,
                   .digest = (message.flags & wire::Frame::digest) != 0,
+                  .digests = (message.flags & wire::Frame::digests) != 0,
                   .wantsDepth = (message.flags & wire::Frame::wantsDepth) != 0,
                   .tellsDepth = (message.flags & wire::Frame::tellsDepth) != 0,
                   .changes = {.bytes = {message.tail.begin(), message.tail.end()}}},
@@ -116,6 +159,7 @@ Result<void> FrameGate::swap(const wire::Swap& message) {
 }
 
 Result<void> FrameGate::drain() {
+    if (beginning_ && haveAll(beginning_->needed)) begin();
     while (started_ && !waiting_.empty()) {
         Waiting& front = waiting_.front();
         if (auto* frame = std::get_if<WaitingFrame>(&front)) {
@@ -150,11 +194,10 @@ Result<bool> FrameGate::pass(WaitingFrame& waiting) {
         return tl::unexpected{Error{.code = Errc::protocol,
                                     .what = fmt::format("Frame {} after frame {}, expected {}",
                                                         frame.n, lastFrame_, lastFrame_ + 1)}};
-    for (const auto& name : waiting.needed)
-        if (!kept_.contains(name.hash)) return false;
-    for (const auto& name : waiting.needed)
-        frame.changes.payloads.push_back(kept_.find(name.hash)->second.payload);
+    if (!haveAll(waiting.needed)) return false;
+    give(waiting.needed, frame.changes);
     for (const auto& release : waiting.released) {
+        if (relayed_) released_.insert(release.serial);
         const auto found = kept_.find(release.hash);
         if (found == kept_.end() || found->second.serial != release.serial) continue;
         keptBytes_ -= found->second.payload.size();

@@ -30,6 +30,8 @@ HostCore::HostCore(asio::io_context& io, tcp::acceptor acceptor, ServerOptions o
       options_{std::move(options)},
       tls_{options_.key ? std::make_shared<const TlsContext>(TlsSide::server, options_.key)
                         : nullptr},
+      dialling_{options_.key ? std::make_shared<const TlsContext>(TlsSide::client, options_.key)
+                             : nullptr},
       inbox_{inbox},
       progress_{progress},
       acceptTimer_{io},
@@ -122,6 +124,7 @@ void HostCore::refuse(std::shared_ptr<Channel> channel, const std::string& why) 
 Result<void> HostCore::received(Channel& from, MessageType type, std::span<const std::byte> body) {
     if (session_ && &from == session_->control.get()) return control(type, body);
     if (session_ && &from == session_->bulk.get()) return bulk(type, body);
+    if (session_ && &from == session_->relay.get()) return relayed(body);
     return greeted(from, body);
 }
 
@@ -142,6 +145,8 @@ Result<void> HostCore::greeted(Channel& from, std::span<const std::byte> body) {
         guest->expectBulk();
         session_->bulk = guest;
         session_->images.attach(guest);
+    } else if (hello->role == wire::Role::relay) {
+        joinRelay(guest, hello->token);
     } else if (session_) {
         refuse(guest, fmt::format("server \"{}\" serves another client ({})", options_.name,
                                   session_->control->remote()));
@@ -149,6 +154,21 @@ Result<void> HostCore::greeted(Channel& from, std::span<const std::byte> body) {
         beginSession(guest, *std::move(hello));
     }
     return {};
+}
+
+/// A new one takes the place of one that was there: the client has found another way.
+void HostCore::joinRelay(std::shared_ptr<Channel> channel, std::uint64_t token) {
+    if (!session_ || session_->token != token)
+        return refuse(
+            std::move(channel),
+            fmt::format("server \"{}\": this relay belongs to no session", options_.name));
+    if (session_->relay) {
+        session_->relay->close();
+        session_->gate->sourceEnded(FrameGate::Source::relay);
+    }
+    channel->setRoute(Route::toServerRelay);
+    channel->expectBulk();
+    session_->relay = std::move(channel);
 }
 
 void HostCore::beginSession(std::shared_ptr<Channel> channel, wire::ClientHello hello) {
@@ -161,6 +181,12 @@ void HostCore::beginSession(std::shared_ptr<Channel> channel, wire::ClientHello 
     session_->gate = std::make_unique<FrameGate>(
         options_.payloadBudget,
         [this](ServerEvent event, std::size_t bytes) { inbox_.push(std::move(event), bytes); });
+    session_->relays = std::make_unique<Relays>(
+        io_, dialling_, *session_->gate, [this](std::uint64_t token, const std::string& why) {
+            session_->control->send(
+                Part::of(packet(wire::RelayLost{.token = token, .why = why.substr(0, 4096)})));
+        });
+    session_->gate->setWatch(session_->relays.get());
     inbox_.push(SchemaOffer{.session = session_->id,
                             .who = "client " + session_->control->remote(),
                             .schema = std::move(hello.schema)},
@@ -208,6 +234,16 @@ Result<void> HostCore::control(MessageType type, std::span<const std::byte> body
                 answer(ping);
                 return {};
             });
+        case MessageType::relay:
+            return with<wire::Relay>(body, [&](wire::Relay relay) -> Result<void> {
+                session_->relays->add(std::move(relay));
+                return {};
+            });
+        case MessageType::relayEnd:
+            return with<wire::RelayEnd>(body, [&](const wire::RelayEnd& end) -> Result<void> {
+                session_->relays->remove(end.token);
+                return {};
+            });
         case MessageType::bye:
             endSession({.code = Errc::disconnected, .what = "the client said goodbye"}, false);
             return {};
@@ -234,6 +270,16 @@ Result<void> HostCore::bulk(MessageType type, std::span<const std::byte> body) {
     return {};
 }
 
+Result<void> HostCore::relayed(std::span<const std::byte> body) {
+    auto done = with<wire::Payload>(body, [&](const wire::Payload& part) {
+        return session_->gate->payload(part, FrameGate::Source::relay);
+    });
+    // The relay may lie; the client, who chose it, may choose another way.
+    if (!done) return done;
+    throttle();
+    return {};
+}
+
 void HostCore::answer(const wire::Ping& ping) {
     const std::int64_t now = steadyNanoseconds();
     const std::int64_t since = progress_.busySince.load();
@@ -241,7 +287,8 @@ void HostCore::answer(const wire::Ping& ping) {
                     .serverClock = now,
                     .lastFinished = progress_.lastFinished.load(),
                     .current = progress_.current.load(),
-                    .activity = progress_.activity.load()};
+                    .activity = progress_.activity.load(),
+                    .arrived = session_->gate->bytesArrived()};
     if (since != 0) pong.busyMs = static_cast<std::uint32_t>((now - since) / 1'000'000);
     session_->control->send(Part::of(packet(pong)));
 }
@@ -280,6 +327,8 @@ void HostCore::endSession(const Error& why, bool tellClient) {
     // Dropped first: closing a channel may call back.
     const auto ended = std::move(session_);
     if (ended->bulk) ended->bulk->close();
+    if (ended->relay) ended->relay->close();
+    ended->relays.reset();
     if (tellClient && ended->control->isOpen())
         refuse(ended->control, why.text());
     else
@@ -298,6 +347,12 @@ void HostCore::drained(Channel& channel) {
 void HostCore::closed(Channel& channel, Error why) {
     if (session_ && (&channel == session_->control.get() || &channel == session_->bulk.get()))
         return endSession(why, &channel == session_->bulk.get());
+    if (session_ && &channel == session_->relay.get()) {
+        session_->relay.reset();
+        session_->gate->sourceEnded(FrameGate::Source::relay);
+        if (why.code == Errc::protocol || why.code == Errc::limit) report("relay " + why.text());
+        return;
+    }
     const auto guest = takeGuest(channel);
     if (guest && (!guest->isSecured() || why.code == Errc::protocol)) report(why.text());
 }

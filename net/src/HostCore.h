@@ -10,6 +10,7 @@
 #include "Channel.h"
 #include "FrameGate.h"
 #include "Inbox.h"
+#include "Relays.h"
 #include "Timer.h"
 
 namespace gnomon::net {
@@ -58,6 +59,8 @@ private:
         std::shared_ptr<Channel> control = {};
         std::shared_ptr<Channel> bulk = {};
         std::unique_ptr<FrameGate> gate = {};
+        std::shared_ptr<Channel> relay = {};  // payloads that another server passes on
+        std::unique_ptr<Relays> relays = {};  // those we pass ours on to
         BulkSender images = {};
         bool joined = false;  // the main thread knows of it
     };
@@ -65,9 +68,11 @@ private:
     void accept();
     void admit(tcp::socket socket);
     Result<void> greeted(Channel& from, std::span<const std::byte> body);
+    void joinRelay(std::shared_ptr<Channel> channel, std::uint64_t token);
     void beginSession(std::shared_ptr<Channel> control, wire::ClientHello hello);
     Result<void> control(MessageType type, std::span<const std::byte> body);
     Result<void> bulk(MessageType type, std::span<const std::byte> body);
+    Result<void> relayed(std::span<const std::byte> body);
     void answer(const wire::Ping& ping);
     void watch();
     void endSession(const Error& why, bool tellClient);
@@ -79,7 +84,8 @@ private:
     asio::io_context& io_;
     tcp::acceptor acceptor_;
     const ServerOptions options_;
-    const std::shared_ptr<const TlsContext> tls_;  // null: no key
+    const std::shared_ptr<const TlsContext> tls_;       // null: no key
+    const std::shared_ptr<const TlsContext> dialling_;  // the same for connections of our own
     Inbox& inbox_;
     const Progress& progress_;
     std::list<Guest> guests_;

@@ -87,15 +87,6 @@ Result<void> HubCore::checkSchema(std::span<const std::byte> schema, const std::
     return scratch.agree(schema, who);
 }
 
-void HubCore::digest(Peer& peer, const Digest& digest) {
-    const auto found = digests_.find(digest.n);
-    if (found == digests_.end() || found->second == digest.digest) return;
-    log(LogLevel::error,
-        fmt::format("{}: its copy of the scene drifted: digest {:016x} after frame {}, expected "
-                    "{:016x}",
-                    peer.label(), digest.digest, digest.n, found->second));
-}
-
 void HubCore::event(Peer& peer, const InputEvent& event) {
     if (events_.size() >= maxEvents) events_.pop_front();
     events_.push_back({.server = peer.name(), .event = event});

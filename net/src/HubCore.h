@@ -57,8 +57,10 @@ public:
     Result<void> ready(Peer& peer, const Ready& ready) override;
     Result<void> depth(Peer& peer, const Depth& depth) override;
     void digest(Peer& peer, const Digest& digest) override;
+    void digests(Peer& peer, const Digests& digests) override;
     void event(Peer& peer, const InputEvent& event) override;
     void image(Peer& peer, Image image) override;
+    void relayLost(Peer& peer, const wire::RelayLost& lost) override;
     void log(LogLevel level, const std::string& text) override;
     void changed() override;
 
@@ -97,6 +99,12 @@ private:
     void failCalls();
     std::optional<double> skewOf(std::uint64_t n) const;
     void noteDigest(std::uint64_t n);
+    std::string differences(const Digests& theirs) const;
+
+    // HubRelay.cpp: who gets payloads from whom.
+    Peer* relayFor(const Peer& peer) const;
+    void provide(Peer& peer, Peer* relay, const std::vector<PayloadLedger::Kept>& missing);
+    void leaveTree(Peer& peer);
 
     // HubMembers.cpp: joining, lateness, loss.
     bool mayJoin(std::uint64_t ready) const;
@@ -121,6 +129,8 @@ private:
     PayloadLedger ledger_;
     CaptureBoard captures_;
     std::map<std::uint64_t, std::uint64_t> digests_;  // by frame, the newest few
+    bool anyDrifts_ = false;                          // the next frame asks for all Digests
+    std::map<std::uint64_t, std::vector<field::ContainerDigest>> eachDigest_;  // the newest two
 
     std::vector<std::unique_ptr<Peer>> peers_;
     std::deque<std::shared_ptr<FrameCall>> unprepared_, calls_;

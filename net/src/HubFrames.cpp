@@ -84,7 +84,7 @@ void HubCore::encode(FrameCall& call) {
 
     std::vector<PayloadLedger::Kept> fresh;
     wire::Frame frame{.n = call.n, .time = call.time};
-    frame.needed = ledger_.take(list, fresh);
+    frame.needed = ledger_.take(list, call.n, fresh);
     frame.released = ledger_.release(session_.takeUnusedPayloads());
     const bool wantsDepth = hooks_.fit && hooks_.wantsDepth && hooks_.wantsDepth(session_, call.n);
     const bool tellsDepth =
@@ -98,6 +98,11 @@ void HubCore::encode(FrameCall& call) {
         frame.flags |= wire::Frame::digest;
         noteDigest(call.n);
     }
+    if (std::exchange(anyDrifts_, false)) {
+        frame.flags |= wire::Frame::digests;
+        eachDigest_[call.n] = session_.digests();
+        while (eachDigest_.size() > 2) eachDigest_.erase(eachDigest_.begin());
+    }
     const Part changes = Part::of(std::move(list.bytes));
     frame.tail = changes.bytes;
     Prepared prepared{.n = call.n,
@@ -110,14 +115,9 @@ void HubCore::encode(FrameCall& call) {
     for (const auto& kept : fresh) {
         prepared.payloadBytes += kept.payload.size();
         for (const auto& peer : peers_)
-            if (peer->standing.joined) uploadTo(*peer, kept);
+            if (peer->standing.joined && peer->standing.relay == nullptr) uploadTo(*peer, kept);
     }
     prepared_ = std::move(prepared);
-}
-
-void HubCore::noteDigest(std::uint64_t n) {
-    digests_[n] = session_.digest();
-    while (digests_.size() > 4) digests_.erase(digests_.begin());
 }
 
 /// When every member has told the depth range of the outstanding frame, its fit is made and sent.
@@ -142,7 +142,6 @@ void HubCore::tryFit() {
     ++sessionVersion_;
     auto list = session_.commit();
     GNOMON_EXPECTS(list.payloads.empty(), "a fit names payloads");
-    if (digests_.contains(n)) noteDigest(n);
     const Part changes = Part::of(std::move(list.bytes));
     const Part head = Part::of(packet(wire::Fit{.n = n, .tail = changes.bytes}));
     for (const auto& peer : peers_) {

@@ -23,7 +23,7 @@ constexpr Milliseconds secondLook{5};
 void HubCore::connected(Peer& peer) {
     peer.standing.joined = true;
     peer.standing.snapshot = preparedN_;
-    for (const auto& kept : ledger_.all()) uploadTo(peer, kept);
+    provide(peer, relayFor(peer), ledger_.since(0));
     sendSnapshot(peer);
 }
 
@@ -41,7 +41,9 @@ void HubCore::uploadTo(Peer& peer, const PayloadLedger::Kept& kept) {
 
 void HubCore::sendSnapshot(Peer& peer) {
     if (snapshotVersion_ != sessionVersion_) {  // servers that start together share one
-        snapshot_ = Part::of(session_.snapshot().bytes);
+        const field::ChangeList list = session_.snapshot();
+        snapshot_ =
+            Part::of(body(wire::SnapshotBody{.needed = ledger_.names(), .tail = list.bytes}));
         snapshotVersion_ = sessionVersion_;
     }
     const std::uint64_t total = snapshot_.bytes.size();
@@ -120,6 +122,7 @@ Result<void> HubCore::depth(Peer& peer, const Depth& depth) {
 
 void HubCore::lost(Peer& peer, const Error&) {
     recount_ = true;
+    leaveTree(peer);
     if (peer.standing.member) {
         ++lostCount_;
         latest_.droppedNow.push_back(peer.name());
@@ -151,7 +154,7 @@ TimePoint HubCore::dueOf(const Peer& peer) const {
     if (options_.waitForLate) return TimePoint::max();
     const Outstanding& out = *outstanding_;
     const auto began = std::max(out.sentAt, peer.standing.memberSince);
-    auto from = std::max(began, peer.bulk().lastProgress());
+    auto from = std::max(began, peer.lastProgress());
     auto due = from + options_.startTimeout;
     if (out.firstReady) due = std::max(from, *out.firstReady) + options_.timeout + allowance();
     const auto silent = std::max(began + options_.timeout,

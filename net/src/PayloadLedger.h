@@ -3,6 +3,7 @@
 #include <gnomon/field/ChangeList.h>
 #include <gnomon/net/ClientMessages.h>
 
+#include <algorithm>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -16,10 +17,13 @@ public:
     struct Kept {
         field::Payload payload = {};
         std::uint64_t serial = 0;
+        std::uint64_t frame = 0;  ///< that needed it first
     };
 
-    /// What the list names, each once; appends to @p fresh what the servers do not have.
-    std::vector<wire::PayloadName> take(const field::ChangeList& list, std::vector<Kept>& fresh) {
+    /// What the list of frame @p n names, each once; appends to @p fresh what the servers do not
+    /// have.
+    std::vector<wire::PayloadName> take(const field::ChangeList& list, std::uint64_t n,
+                                        std::vector<Kept>& fresh) {
         std::vector<wire::PayloadName> needed;
         std::unordered_set<field::Hash128> seen;
         for (const field::Payload& payload : list.payloads) {
@@ -27,7 +31,7 @@ public:
             needed.push_back({.hash = payload.hash(), .size = payload.size()});
             const auto [at, isNew] = kept_.try_emplace(payload.hash());
             if (!isNew) continue;
-            at->second = {.payload = payload, .serial = ++serial_};
+            at->second = {.payload = payload, .serial = ++serial_, .frame = n};
             fresh.push_back(at->second);
         }
         return needed;
@@ -42,13 +46,24 @@ public:
         }
         return released;
     }
-    /// For a server that joins.
-    std::vector<Kept> all() const {
+    /// What frames after @p n needed first, 0: all; in the order of the serials.
+    std::vector<Kept> since(std::uint64_t n) const {
         std::vector<Kept> list;
-        list.reserve(kept_.size());
-        for (const auto& [hash, kept] : kept_) list.push_back(kept);
+        for (const auto& [hash, kept] : kept_)
+            if (kept.frame > n) list.push_back(kept);
+        std::sort(list.begin(), list.end(),
+                  [](const Kept& a, const Kept& b) { return a.serial < b.serial; });
         return list;
     }
+    std::vector<wire::PayloadName> names() const {
+        std::vector<wire::PayloadName> list;
+        list.reserve(kept_.size());
+        for (const auto& [hash, kept] : kept_)
+            list.push_back({.hash = hash, .size = kept.payload.size()});
+        return list;
+    }
+    /// Of the newest upload.
+    std::uint64_t newest() const noexcept { return serial_; }
 
 private:
     std::unordered_map<field::Hash128, Kept> kept_;

@@ -132,7 +132,7 @@ void Peer::joinBulk(tcp::socket socket) {
 
 /// A joiner may take startTimeout after its last upload.
 void Peer::watchLoading() {
-    const auto due = bulk_.lastProgress() + options_.startTimeout;
+    const auto due = lastProgress() + options_.startTimeout;
     if (SteadyClock::now() < due) return timer_.at(due, [this] { watchLoading(); });
     drop({.code = Errc::timeout,
           .what = fmt::format("{}: {} for more than {} ms", label(), stateText(),
@@ -187,9 +187,19 @@ Result<void> Peer::received(Channel& from, MessageType type, std::span<const std
                 owner_.digest(*this, m);
                 return {};
             });
+        case MessageType::digests:
+            return take.operator()<Digests>([&](const Digests& m) -> Result<void> {
+                owner_.digests(*this, m);
+                return {};
+            });
         case MessageType::event:
             return take.operator()<InputEvent>([&](const InputEvent& m) -> Result<void> {
                 owner_.event(*this, m);
+                return {};
+            });
+        case MessageType::relayLost:
+            return take.operator()<wire::RelayLost>([&](const wire::RelayLost& m) -> Result<void> {
+                owner_.relayLost(*this, m);
                 return {};
             });
         case MessageType::log:
@@ -208,6 +218,8 @@ Result<void> Peer::pongArrived(std::span<const std::byte> body) {
     auto pong = decode<wire::Pong>(body);
     if (!pong) return tl::unexpected{std::move(pong).error()};
     clock_.add(pong->sentAt, pong->serverClock, steadyNanoseconds());
+    if (pong->arrived > arrived_) arrivedAt_ = SteadyClock::now();
+    arrived_ = pong->arrived;
     const bool news = !pong_ || pong_->activity != pong->activity;
     pong_ = *pong;
     if (news) owner_.changed();
@@ -272,6 +284,7 @@ void Peer::closeAll() {
     clock_ = {};
     pong_.reset();
     pings_ = 0;
+    arrived_ = 0;
     image_.reset();
 }
 
@@ -353,6 +366,7 @@ ServerStatus Peer::status() const {
         status.current = pong_->current;
         status.busyMs = pong_->busyMs;
     }
+    if (standing.relay != nullptr) status.relay = standing.relay->name();
     if (const auto trip = clock_.trip()) status.tripMs = static_cast<double>(*trip) * 1e-6;
     return status;
 }

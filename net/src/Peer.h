@@ -31,8 +31,10 @@ public:
     virtual Result<void> ready(Peer& peer, const Ready& ready) = 0;
     virtual Result<void> depth(Peer& peer, const Depth& depth) = 0;
     virtual void digest(Peer& peer, const Digest& digest) = 0;
+    virtual void digests(Peer& peer, const Digests& digests) = 0;
     virtual void event(Peer& peer, const InputEvent& event) = 0;
     virtual void image(Peer& peer, Image image) = 0;
+    virtual void relayLost(Peer& peer, const wire::RelayLost& lost) = 0;
     virtual void log(LogLevel level, const std::string& text) = 0;
     /// Something status() shows is different.
     virtual void changed() = 0;
@@ -51,6 +53,10 @@ struct Standing {
     std::optional<Depth> depth = {};
     std::uint64_t shownFrame = 0;
     std::int64_t shownAt = 0;  ///< nanoseconds of our clock
+    bool drifting = false;     ///< its copy of the scene is not the session's
+    Peer* relay = nullptr;     ///< passes payloads on to it; nullptr: it gets them from us
+    int level = 0;             ///< relays between it and us
+    int relays = 0;            ///< servers it passes payloads on to
 };
 
 /// One server as the client sees it: connects, greets, connects again when it was lost, and keeps
@@ -81,6 +87,11 @@ public:
     const std::string& name() const noexcept { return address_.name; }
     /// "left2 (127.0.0.1:4711)"
     std::string label() const;
+    const ServerAddress& address() const noexcept { return address_; }
+    /// Of its session; another with each connection.
+    std::uint64_t token() const noexcept { return token_; }
+    /// When we last sent or it last got something large.
+    TimePoint lastProgress() const noexcept { return std::max(bulk_.lastProgress(), arrivedAt_); }
     ServerStatus status() const;
     BulkSender& bulk() noexcept { return bulk_; }
     const BulkSender& bulk() const noexcept { return bulk_; }
@@ -95,6 +106,8 @@ public:
     std::uint32_t timesLost = 0;
     std::uint32_t timesRejoined = 0;
     bool everMember = false;
+
+    bool driftNamed = false;  ///< once it was said in what
 
     Result<void> received(Channel& from, MessageType type,
                           std::span<const std::byte> body) override;
@@ -134,6 +147,8 @@ private:
     ClockFilter clock_;
     std::optional<wire::Pong> pong_;
     int pings_ = 0;
+    std::uint64_t arrived_ = 0;  // bytes, as it said
+    TimePoint arrivedAt_ = {};
     std::optional<Image> image_;  // arriving
     std::uint64_t imageArrived_ = 0;
     std::string description_;

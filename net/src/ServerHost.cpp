@@ -40,6 +40,15 @@ bool needsKey(const std::string& address) {
     return !ec && !isLoopback(parsed);
 }
 
+Digests digestsOf(std::uint64_t n, field::Aspect& aspect) {
+    Digests digests{.n = n};
+    for (const auto& [id, digest] : aspect.digests()) {
+        if (digests.list.size() == maxDigests) break;
+        digests.list.push_back({.id = id.value, .digest = digest});
+    }
+    return digests;
+}
+
 class ServerHost::Impl {
 public:
     Impl(ServerOptions options, field::TypeRegistry& types) : types_{types} {
@@ -155,6 +164,7 @@ void ServerHost::send(Ready ready) {
 }
 
 void ServerHost::send(const Digest& digest) { impl_->sendControl(packet(digest)); }
+void ServerHost::send(const Digests& digests) { impl_->sendControl(packet(digests)); }
 void ServerHost::send(const Depth& depth) { impl_->sendControl(packet(depth)); }
 void ServerHost::send(const InputEvent& event) { impl_->sendControl(packet(event)); }
 

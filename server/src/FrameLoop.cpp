@@ -174,6 +174,7 @@ void FrameLoop::take(const net::Frame& frame) {
     const auto since = Clock::now();
     const bool changed = apply(frame.changes);
     if (frame.digest) host_->send(net::Digest{.n = frame.n, .digest = session_->scene->digest()});
+    if (frame.digests) host_->send(net::digestsOf(frame.n, *session_->scene));
     if (frame.wantsDepth) {
         tellDepth(frame.n, false);
         waiting_ = frame;

@@ -34,7 +34,10 @@ struct Gate {
         }
         return {};
     }
-    Result<void> snapshot(std::uint64_t n) { return gate.snapshot({.n = n}); }
+    Result<void> snapshot(std::uint64_t n, std::vector<wire::PayloadName> needed = {}) {
+        const auto whole = body(wire::SnapshotBody{.needed = std::move(needed)});
+        return gate.snapshot({.n = n, .total = whole.size(), .tail = whole});
+    }
     Result<void> frame(std::uint64_t n, std::vector<wire::PayloadName> needed = {},
                        std::vector<wire::PayloadRelease> released = {}) {
         return gate.frame({.n = n, .needed = std::move(needed), .released = std::move(released)});
@@ -103,18 +106,66 @@ TEST(FrameGate, AReleaseThatComesAfterTheNextUploadDoesNotTakeIt) {
     EXPECT_EQ(gate.last<Frame>()->n, 2U);
 }
 
-TEST(FrameGate, ASnapshotCarriesWhatWasUploadedBefore) {
+TEST(FrameGate, ASnapshotWaitsForTheChangesAndPayloadsItNames) {
     Gate gate;
-    ASSERT_TRUE(gate.upload(content(100, 1), 1));
-    ASSERT_TRUE(gate.upload(content(100, 2), 2));
-    const auto list = content(30, 3);
-    const std::span<const std::byte> all{list};
-    ASSERT_TRUE(gate.gate.snapshot({.n = 3, .total = 30, .offset = 0, .tail = all.first(20)}));
+    const auto one = content(100, 1), other = content(100, 2), list = content(30, 3);
+    ASSERT_TRUE(gate.upload(one, 1));
+    const auto whole =
+        body(wire::SnapshotBody{.needed = {nameOf(one), nameOf(other)}, .tail = list});
+    const std::span<const std::byte> all{whole};
+    ASSERT_TRUE(gate.gate.snapshot({.n = 3, .total = all.size(), .tail = all.first(20)}));
+    ASSERT_TRUE(
+        gate.gate.snapshot({.n = 3, .total = all.size(), .offset = 20, .tail = all.subspan(20)}));
+    ASSERT_TRUE(gate.frame(4));
     EXPECT_TRUE(gate.events.empty());
-    ASSERT_TRUE(gate.gate.snapshot({.n = 3, .total = 30, .offset = 20, .tail = all.subspan(20)}));
-    ASSERT_NE(gate.last<Snapshot>(), nullptr);
-    EXPECT_EQ(gate.last<Snapshot>()->changes.bytes, list);
-    EXPECT_EQ(gate.last<Snapshot>()->changes.payloads.size(), 2U);
+    ASSERT_TRUE(gate.upload(other, 2));
+    ASSERT_EQ(gate.events.size(), 2U);
+    const auto* snapshot = std::get_if<Snapshot>(&gate.events[0]);
+    ASSERT_NE(snapshot, nullptr);
+    EXPECT_EQ(snapshot->changes.bytes, list);
+    EXPECT_EQ(snapshot->changes.payloads.size(), 2U);
+}
+
+TEST(FrameGate, AMalformedSnapshotIsRefused) {
+    Gate gate;
+    const auto bytes = content(30, 3);  // announces far more payloads than there are bytes
+    ASSERT_FALSE(gate.gate.snapshot({.n = 3, .total = 30, .tail = bytes}));
+}
+
+Result<void> part(FrameGate& gate, const std::vector<std::byte>& bytes, std::size_t at,
+                  std::size_t size, FrameGate::Source source) {
+    return gate.payload({.hash = field::contentHash(bytes),
+                         .serial = 1,
+                         .total = bytes.size(),
+                         .offset = at,
+                         .tail = std::span{bytes}.subspan(at, size)},
+                        source);
+}
+
+TEST(FrameGate, TheSamePayloadFromTwoSourcesIsTakenOnce) {
+    using enum FrameGate::Source;
+    Gate gate;
+    const auto bytes = content(100, 1);
+    ASSERT_TRUE(gate.snapshot(0));
+    ASSERT_TRUE(part(gate.gate, bytes, 0, 60, relay));
+    ASSERT_TRUE(part(gate.gate, bytes, 0, 30, client));
+    EXPECT_EQ(gate.gate.unfinished(1).size(), 60U);
+    ASSERT_TRUE(part(gate.gate, bytes, 60, 40, relay));
+    ASSERT_TRUE(gate.frame(1, {nameOf(bytes)}, {{.hash = nameOf(bytes).hash, .serial = 1}}));
+    EXPECT_EQ(gate.last<Frame>()->n, 1U);
+    ASSERT_TRUE(part(gate.gate, bytes, 30, 70, client));
+    EXPECT_TRUE(gate.gate.kept().empty());  // released before: it is not kept for ever
+}
+
+TEST(FrameGate, WhatALostRelayBeganIsForgotten) {
+    using enum FrameGate::Source;
+    Gate gate;
+    const auto bytes = content(100, 1);
+    ASSERT_TRUE(part(gate.gate, bytes, 0, 60, relay));
+    gate.gate.sourceEnded(relay);
+    EXPECT_TRUE(gate.gate.unfinished(1).empty());
+    ASSERT_TRUE(part(gate.gate, bytes, 0, 100, relay));
+    EXPECT_EQ(gate.gate.kept().size(), 1U);
 }
 
 void expectRefused(const Result<void>& outcome, const char* why, Errc code = Errc::protocol) {

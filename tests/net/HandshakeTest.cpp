@@ -22,6 +22,27 @@ std::string refusal(std::span<const std::byte> reply) {
     return refused ? refused->why : refused.error().what;
 }
 
+/// The body of the first message of that type; empty where the connection ends before.
+std::vector<std::byte> awaitMessage(RawSocket& raw, MessageType wanted) {
+    std::vector<std::byte> input;
+    while (true) {
+        std::uint32_t length = 0, type = 0;
+        if (input.size() >= 8) {
+            std::memcpy(&length, input.data(), 4);
+            std::memcpy(&type, input.data() + 4, 4);
+        }
+        if (input.size() < 8 || input.size() < 8 + std::size_t{length}) {
+            const auto more = raw.read(1);
+            if (more.empty()) return {};
+            input.insert(input.end(), more.begin(), more.end());
+            continue;
+        }
+        const auto end = input.begin() + 8 + static_cast<std::ptrdiff_t>(length);
+        if (type == static_cast<std::uint32_t>(wanted)) return {input.begin() + 8, end};
+        input.erase(input.begin(), end);
+    }
+}
+
 void expectStillServing(TestServer& server) {
     TestHub hub;
     hub->connect(server.address());
@@ -156,6 +177,17 @@ TEST(Handshake, GarbageAfterTheHelloEndsTheSession) {
     EXPECT_NE(server.seen().left[0].find("not expected here"), std::string::npos)
         << server.seen().left[0];
     expectStillServing(server);
+}
+
+TEST(Handshake, ARelayThatCannotBeReachedIsToldOf) {
+    TestServer server{"left"};
+    RawSocket raw{server.port()};
+    raw.send(packet(wire::ClientHello{.token = 9, .schema = testTypes().schema()}));
+    raw.send(packet(wire::Relay{.token = 5, .host = "127.0.0.1", .port = 1}));
+    const auto lost = decode<wire::RelayLost>(awaitMessage(raw, MessageType::relayLost));
+    ASSERT_TRUE(lost) << lost.error().what;
+    EXPECT_EQ(lost->token, 5U);
+    EXPECT_NE(lost->why.find("refused"), std::string::npos) << lost->why;
 }
 
 TEST(Handshake, AClientThatSaysNothingIsPutOutAfterAWhile) {

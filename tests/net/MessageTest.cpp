@@ -29,7 +29,8 @@ struct Sample {
 template <class M>
 Sample sample(const char* name, const M& message) {
     Sample made{.name = name, .bytes = body(message)};
-    made.fixedBytes = packet(message).size() - 8;
+    made.fixedBytes = made.bytes.size();
+    if constexpr (hasTail<M>) made.fixedBytes -= message.tail.size();
     made.tail = hasTail<M>;
     made.greets = requires { M::greets; };
     made.again = [](std::span<const std::byte> bytes) -> Result<std::vector<std::byte>> {
@@ -62,6 +63,13 @@ std::vector<Sample> samples() {
                wire::Payload{.hash = hash, .serial = 1, .total = 100, .offset = 50, .tail = tail}),
         sample("snapshot",
                wire::Snapshot{.n = 5, .time = 2, .total = 50, .offset = 0, .tail = tail}),
+        sample("snapshotBody",
+               wire::SnapshotBody{.needed = {{.hash = hash, .size = 9}}, .tail = tail}),
+        sample("relay",
+               wire::Relay{
+                   .token = 7, .host = "wall01", .port = 7430, .after = 12, .uploads = {3, 12}}),
+        sample("relayEnd", wire::RelayEnd{.token = 7}),
+        sample("relayLost", wire::RelayLost{.token = 7, .why = "refused"}),
         sample("serverHello",
                wire::ServerHello{
                    .server = "left", .description = "llvmpipe", .schema = someBytes(20)}),
@@ -73,6 +81,7 @@ std::vector<Sample> samples() {
                                     .images = 2,
                                     .stats = {.renderMs = 3, .triangles = 1000}}),
         sample("digest", wire::Digest{.n = 5, .digest = 0xfeedULL}),
+        sample("digests", wire::Digests{.n = 5, .list = {{.id = 1, .digest = 2}, {.id = 3}}}),
         sample("event",
                wire::Event{.window = 1, .kind = wire::EventKind::scroll, .code = -1, .x = 0.5}),
         sample("pong", wire::Pong{.sentAt = 1,

@@ -153,6 +153,11 @@ void TestServer::handle(ServerEvent event) {
         });
         if (frame.digest)
             host_->send(Digest{.n = frame.n, .digest = digest + (options_.lieAboutDigest ? 1 : 0)});
+        if (frame.digests) {
+            Digests all = digestsOf(frame.n, *aspect_);
+            if (options_.lieAboutDigest) ++all.list.front().digest;
+            host_->send(all);
+        }
         for (int i = 0; frame.capture && i < options_.images; ++i) {
             Image image{.n = frame.n,
                         .window = static_cast<std::uint64_t>(i),

@@ -72,6 +72,7 @@ struct Schema<Cluster> {
         Field{"launch", &Cluster::launch, anything},
         Field{"server", &Cluster::server, Rule{.text = programExpectation}},
         Field{"options", &Cluster::options, Rule{.text = titleExpectation}},
+        Field{"relay", &Cluster::relay, Rule{.min = 0, .max = 64, .unit = "servers"}},
     };
 };
 

@@ -267,9 +267,14 @@ std::uint64_t Aspect::digest() {
     return digest_;
 }
 
-std::uint64_t Aspect::digest(Id id) {
-    const FieldContainer* found = find(id);
-    return found == nullptr || !found->type().replicated ? 0 : computeDigest(*found);
+std::vector<ContainerDigest> Aspect::digests() {
+    std::vector<ContainerDigest> all;
+    containers_.forEach([&](const FieldContainer& container) {
+        if (container.type().replicated)
+            all.push_back({.id = container.id(), .digest = computeDigest(container)});
+    });
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+    return all;
 }
 
 }  // namespace gnomon::field

@@ -64,7 +64,9 @@ Cluster::Cluster(const ClusterOptions& options) {
     if (!options.key.empty())
         key = std::make_shared<const net::ClusterKey>(orThrow(net::ClusterKey::load(options.key)));
     hub_ = std::make_unique<net::ClientHub>(
-        types_, net::SyncOptions{.timeout = 20s, .pipeline = options.pipeline, .digestEvery = 0},
+        types_,
+        net::SyncOptions{
+            .timeout = 20s, .pipeline = options.pipeline, .digestEvery = 0, .relay = options.relay},
         net::HubHooks{.log =
                           [](net::LogLevel level, const std::string& text) {
                               // That there is nothing to draw is meant.

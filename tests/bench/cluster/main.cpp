@@ -24,6 +24,10 @@ int main(int argc, char** argv) {
     program.add_option("--seconds", seconds, "for each case");
     program.add_option("--pipeline", options.pipeline, "frames the client runs ahead, 0 to 2")
         ->capture_default_str();
+    program
+        .add_option("--relay", options.relay,
+                    "servers anyone sends payloads to; 0: the client sends to all")
+        ->capture_default_str();
     program.add_option("--key", options.key, "cluster key: with TLS");
     CLI11_PARSE(program, argc, argv);
     try {

@@ -9,7 +9,8 @@
 /// What a client sends. Layouts with offsets: docs/protocol.md. Little-endian.
 namespace gnomon::net::wire {
 
-enum class Role : std::uint8_t { control, bulk, last = bulk };
+/// A relay connection comes from another server, which passes payloads on.
+enum class Role : std::uint8_t { control, bulk, relay, last = relay };
 
 /// How the client paces the wall; for the server's information.
 struct SyncParameters {
@@ -30,7 +31,8 @@ struct SyncParameters {
     }
 };
 
-/// First on either connection. The bulk one repeats the control one's token; its schema is empty.
+/// First on each connection. Bulk and relay ones repeat the control one's token; their schema is
+/// empty.
 struct ClientHello {
     static constexpr MessageType type = MessageType::clientHello;
     static constexpr std::string_view name = "Hello (client)";
@@ -88,7 +90,8 @@ struct Frame {
     static constexpr std::uint32_t digest = 2;      ///< send Digest before Ready
     static constexpr std::uint32_t wantsDepth = 4;  ///< send Depth, wait for Fit
     static constexpr std::uint32_t tellsDepth = 8;  ///< send Depth before Ready, do not wait
-    static constexpr std::uint32_t knownFlags = 15;
+    static constexpr std::uint32_t digests = 16;    ///< send Digests before Ready
+    static constexpr std::uint32_t knownFlags = 31;
     std::uint64_t n = 0;
     double time = 0;  ///< seconds, the application's clock
     std::uint32_t flags = 0;
@@ -144,6 +147,40 @@ struct Ping {
     }
 };
 
+/// Pass payloads on to another server: those listed, and all whose uploads come later. Connect to
+/// it as a client does, with the role relay and the token of its session. Its uploads come in the
+/// order in which they are here.
+struct Relay {
+    static constexpr MessageType type = MessageType::relay;
+    static constexpr std::string_view name = "Relay";
+    std::uint64_t token = 0;  ///< of the other server's session
+    std::string host = {};    ///< name or numeric address
+    std::uint16_t port = 0;
+    std::uint64_t after = 0;                  ///< uploads with a later serial are passed on
+    std::vector<std::uint64_t> uploads = {};  ///< serials of those that are passed on besides
+
+    template <class Self, class Io>
+    static void fields(Self& self, Io& io) {
+        io(self.token);
+        io(self.host);
+        io(self.port);
+        io(self.after);
+        io(self.uploads);
+    }
+};
+
+/// Pass no more on to the server with this session.
+struct RelayEnd {
+    static constexpr MessageType type = MessageType::relayEnd;
+    static constexpr std::string_view name = "RelayEnd";
+    std::uint64_t token = 0;
+
+    template <class Self, class Io>
+    static void fields(Self& self, Io& io) {
+        io(self.token);
+    }
+};
+
 /// The client ends on purpose.
 struct Bye {
     static constexpr MessageType type = MessageType::bye;
@@ -179,8 +216,21 @@ struct Payload {
     }
 };
 
-/// Bulk. A part of the change list that makes an empty aspect the session as of frame n. Every
-/// payload it names was sent before.
+/// What a Snapshot's parts together are: the payloads it names, then the change list that makes an
+/// empty aspect the session as of frame n.
+struct SnapshotBody {
+    static constexpr std::string_view name = "Snapshot";
+    static constexpr bool hasTail = true;
+    std::vector<PayloadName> needed = {};
+    std::span<const std::byte> tail = {};
+
+    template <class Self, class Io>
+    static void fields(Self& self, Io& io) {
+        io(self.needed);
+    }
+};
+
+/// Bulk. A part of a SnapshotBody.
 struct Snapshot {
     static constexpr MessageType type = MessageType::snapshot;
     static constexpr std::string_view name = "Snapshot";

@@ -82,6 +82,10 @@ public:
         to_.scalar(static_cast<std::uint32_t>(values.size()));
         for (const T& value : values) T::fields(value, *this);
     }
+    void operator()(const std::vector<std::uint64_t>& values) {
+        to_.scalar(static_cast<std::uint32_t>(values.size()));
+        for (const std::uint64_t value : values) to_.scalar(value);
+    }
 
 private:
     field::Writer& to_;
@@ -126,6 +130,15 @@ public:
         values.resize(count);
         for (T& value : values) T::fields(value, *this);
     }
+    void operator()(std::vector<std::uint64_t>& values) {
+        const std::size_t count = from_.scalar<std::uint32_t>();
+        if (count > from_.remaining() / sizeof(std::uint64_t)) {
+            from_.fail("a list that is longer than the message");
+            return;
+        }
+        values.resize(count);
+        for (std::uint64_t& value : values) value = from_.scalar<std::uint64_t>();
+    }
 
 private:
     field::Reader& from_;
@@ -154,10 +167,11 @@ std::vector<std::byte> packet(const M& message) {
 /// What `decode` takes: fields and tail, without length and type.
 template <class M>
 std::vector<std::byte> body(const M& message) {
-    auto bytes = packet(message);
-    bytes.erase(bytes.begin(), bytes.begin() + 8);
-    if constexpr (hasTail<M>) bytes.insert(bytes.end(), message.tail.begin(), message.tail.end());
-    return bytes;
+    field::Writer to;
+    detail::FieldWriter io{to};
+    M::fields(message, io);
+    if constexpr (hasTail<M>) to.bytes(message.tail);
+    return to.take();
 }
 
 /// Errors are Errc::protocol and name the message and the byte.

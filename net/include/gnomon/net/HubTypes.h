@@ -30,6 +30,9 @@ struct SyncOptions {
     /// Compare digests every so many frames; 0: never.
     int digestEvery = 64;
     std::chrono::milliseconds pingInterval{250};
+    /// Payloads are sent to so many servers, each of which passes them on to as many, and so on;
+    /// 0: we send them to all.
+    int relay = 0;
 };
 
 /// Callbacks, one at a time, on the application's thread within its calls or on the hub's own.
@@ -94,9 +97,11 @@ struct ServerStatus {
     std::uint64_t current = 0;          ///< frame it is at; 0: none
     std::uint32_t busyMs = 0;           ///< for how long, when it was last asked
     std::optional<double> tripMs = {};  ///< shortest round trip of late
-    std::uint64_t toUpload = 0;         ///< bytes of payloads and snapshot still to be sent
-    std::uint32_t lost = 0;             ///< how often it was dropped from the wall
-    std::uint32_t rejoined = 0;         ///< how often it came back
+    std::string relay =
+        {};  ///< the server that passes payloads on to it; empty: it gets them from us
+    std::uint64_t toUpload = 0;  ///< bytes of payloads and snapshot still to be sent
+    std::uint32_t lost = 0;      ///< how often it was dropped from the wall
+    std::uint32_t rejoined = 0;  ///< how often it came back
 };
 
 /// Since the hub was made, to all servers together.

@@ -14,6 +14,8 @@ enum class MessageType : std::uint32_t {
     swap = 4,
     ping = 5,
     bye = 6,
+    relay = 7,
+    relayEnd = 8,
     payload = 16,
     snapshot = 17,
     serverHello = 64,
@@ -24,6 +26,8 @@ enum class MessageType : std::uint32_t {
     event = 69,
     pong = 70,
     log = 71,
+    relayLost = 72,
+    digests = 73,
     image = 80,
 };
 
@@ -32,6 +36,8 @@ enum class Route : std::uint8_t {
     toServerGreeting,
     toServerControl,
     toServerBulk,
+    toServerRelay,  // from another server
+    toRelay,        // back to that one
     toClientControl,
     toClientBulk,
 };
@@ -43,6 +49,8 @@ inline constexpr std::size_t maxChangeBytes = std::size_t{256} << 20U;
 /// Most bytes of one snapshot, of one payload, and of one image.
 inline constexpr std::uint64_t maxSnapshotBytes = std::uint64_t{1} << 30U;
 inline constexpr std::uint64_t maxPayloadBytes = std::uint64_t{4} << 30U;
+/// Most containers whose digests one message tells.
+inline constexpr std::size_t maxDigests = std::size_t{1} << 20U;
 inline constexpr std::uint64_t maxImageBytes = std::uint64_t{512} << 20U;
 
 /// Greatest allowed body, in bytes; nothing where the message may not come on this route.

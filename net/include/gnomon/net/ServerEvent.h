@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gnomon/field/ChangeList.h>
+#include <gnomon/field/Aspect.h>
 #include <gnomon/net/ClientMessages.h>
 #include <gnomon/net/ServerMessages.h>
 
@@ -14,6 +14,7 @@ namespace gnomon::net {
 using wire::Activity;
 using wire::Depth;
 using wire::Digest;
+using wire::Digests;
 using wire::EventKind;
 using wire::Log;
 using wire::LogLevel;
@@ -45,10 +46,13 @@ struct Frame {
     double time = 0;          ///< seconds, the application's clock
     bool capture = false;     ///< send the Images of this frame, then Ready
     bool digest = false;      ///< send Digest{n, aspect.digest()}, then Ready
+    bool digests = false;     ///< send digestsOf(n, aspect), then Ready
     bool wantsDepth = false;  ///< send Depth{n}, and wait for Fit{n} before rendering with it
     bool tellsDepth = false;  ///< send Depth{n}, as it was rendered, then Ready
     field::ChangeList changes = {};
 };
+
+Digests digestsOf(std::uint64_t n, field::Aspect& aspect);
 
 /// The fit of frame n, made from everybody's Depth.
 struct Fit {

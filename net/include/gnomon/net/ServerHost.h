@@ -60,6 +60,7 @@ public:
     /// frame, so send them before.
     void send(Ready ready);
     void send(const Digest& digest);
+    void send(const Digests& digests);
     void send(const Depth& depth);
     void send(const InputEvent& event);
     void send(const Log& log);  ///< cut at 4096 bytes

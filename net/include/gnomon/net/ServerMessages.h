@@ -119,7 +119,7 @@ struct Ready {
     }
 };
 
-/// Aspect::digest() after frame n (and its Fit).
+/// Aspect::digest() after frame n, before its Fit.
 struct Digest {
     static constexpr MessageType type = MessageType::digest;
     static constexpr std::string_view name = "Digest";
@@ -130,6 +130,32 @@ struct Digest {
     static void fields(Self& self, Io& io) {
         io(self.n);
         io(self.digest);
+    }
+};
+
+struct OneDigest {
+    static constexpr std::size_t wireBytes = 16;
+    std::uint64_t id = 0;  ///< field::Id
+    std::uint64_t digest = 0;
+
+    template <class Self, class Io>
+    static void fields(Self& self, Io& io) {
+        io(self.id);
+        io(self.digest);
+    }
+};
+
+/// Aspect::digests() after frame n, before its Fit; the first maxDigests of them.
+struct Digests {
+    static constexpr MessageType type = MessageType::digests;
+    static constexpr std::string_view name = "Digests";
+    std::uint64_t n = 0;
+    std::vector<OneDigest> list = {};  ///< by id
+
+    template <class Self, class Io>
+    static void fields(Self& self, Io& io) {
+        io(self.n);
+        io(self.list);
     }
 };
 
@@ -181,6 +207,7 @@ struct Pong {
     std::uint64_t current = 0;       ///< the frame it is at; 0: none
     std::uint32_t busyMs = 0;        ///< for how long
     Activity activity = Activity::idle;
+    std::uint64_t arrived = 0;  ///< bytes of payloads and snapshot that have come in this session
 
     template <class Self, class Io>
     static void fields(Self& self, Io& io) {
@@ -190,6 +217,21 @@ struct Pong {
         io(self.current);
         io(self.busyMs);
         io(self.activity);
+        io(self.arrived);
+    }
+};
+
+/// Payloads cannot be passed on any more to the server with this session (see Relay).
+struct RelayLost {
+    static constexpr MessageType type = MessageType::relayLost;
+    static constexpr std::string_view name = "RelayLost";
+    std::uint64_t token = 0;
+    std::string why = {};
+
+    template <class Self, class Io>
+    static void fields(Self& self, Io& io) {
+        io(self.token);
+        io(self.why);
     }
 };
 

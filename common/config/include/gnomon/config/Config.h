@@ -58,6 +58,7 @@ struct Cluster {
     Launch launch = Launch::none;           ///< none: the servers are running already
     std::string server = "gnomon-server";   ///< the program over there
     std::vector<std::string> options = {};  ///< for ssh, srun or mpirun, before anything else
+    int relay = 0;  ///< servers that anyone sends payloads to; 0: the client sends to all
     Origin origin = {};
     bool operator==(const Cluster&) const = default;
 };

@@ -35,6 +35,12 @@ private:
     std::unordered_map<Hash128, Payload> arrived_;
 };
 
+struct ContainerDigest {
+    Id id = {};
+    std::uint64_t digest = 0;
+    friend bool operator==(const ContainerDigest&, const ContainerDigest&) = default;
+};
+
 /// One thread's or one process's copy of the containers.
 ///
 /// Used by one thread at a time. Containers whose id is of this aspect's space are written here,
@@ -97,8 +103,8 @@ public:
     /// Sum of the digests of all replicated containers; the same in every aspect with the same
     /// content. Costs what changed since the last call.
     std::uint64_t digest();
-    /// Of one container, to find which one drifted. 0 where it does not exist.
-    std::uint64_t digest(Id id);
+    /// Of each replicated container, by id, to find which one drifted.
+    std::vector<ContainerDigest> digests();
 
     /// Payloads that no field refers to any more, since the last call.
     std::vector<Hash128> takeUnusedPayloads();
