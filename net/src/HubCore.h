@@ -99,6 +99,7 @@ private:
     void failCalls();
     std::optional<double> skewOf(std::uint64_t n) const;
     void noteDigest(std::uint64_t n);
+    void noteDigests(std::uint64_t n);
     std::string differences(const Digests& theirs) const;
 
     // HubRelay.cpp: who gets payloads from whom.

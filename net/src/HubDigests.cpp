@@ -17,6 +17,11 @@ void HubCore::noteDigest(std::uint64_t n) {
     while (digests_.size() > 4) digests_.erase(digests_.begin());
 }
 
+void HubCore::noteDigests(std::uint64_t n) {
+    eachDigest_[n] = session_.digests();
+    while (eachDigest_.size() > 2) eachDigest_.erase(eachDigest_.begin());
+}
+
 void HubCore::digest(Peer& peer, const Digest& digest) {
     const auto found = digests_.find(digest.n);
     if (found == digests_.end() || found->second == digest.digest) return;

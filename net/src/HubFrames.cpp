@@ -100,8 +100,7 @@ void HubCore::encode(FrameCall& call) {
     }
     if (std::exchange(anyDrifts_, false)) {
         frame.flags |= wire::Frame::digests;
-        eachDigest_[call.n] = session_.digests();
-        while (eachDigest_.size() > 2) eachDigest_.erase(eachDigest_.begin());
+        noteDigests(call.n);
     }
     const Part changes = Part::of(std::move(list.bytes));
     frame.tail = changes.bytes;
@@ -142,6 +141,8 @@ void HubCore::tryFit() {
     ++sessionVersion_;
     auto list = session_.commit();
     GNOMON_EXPECTS(list.payloads.empty(), "a fit names payloads");
+    if (digests_.contains(n)) noteDigest(n);
+    if (eachDigest_.contains(n)) noteDigests(n);
     const Part changes = Part::of(std::move(list.bytes));
     const Part head = Part::of(packet(wire::Fit{.n = n, .tail = changes.bytes}));
     for (const auto& peer : peers_) {

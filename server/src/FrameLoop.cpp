@@ -173,14 +173,13 @@ void FrameLoop::take(const net::Snapshot& snapshot) {
 void FrameLoop::take(const net::Frame& frame) {
     const auto since = Clock::now();
     const bool changed = apply(frame.changes);
-    if (frame.digest) host_->send(net::Digest{.n = frame.n, .digest = session_->scene->digest()});
-    if (frame.digests) host_->send(net::digestsOf(frame.n, *session_->scene));
     if (frame.wantsDepth) {
         tellDepth(frame.n, false);
         waiting_ = frame;
         waitingChanged_ = changed;
         return;
     }
+    sendDigests(frame);
     // Behind: this frame may be shown already elsewhere, so only the newest is worth drawing.
     const auto queued = host_->peek();
     if (queued.newestFrame > frame.n && queued.newestSwap >= frame.n && !frame.capture) {
@@ -189,6 +188,11 @@ void FrameLoop::take(const net::Frame& frame) {
         return;
     }
     renderFrame(frame.n, frame.time, frame.capture, changed, since, frame.tellsDepth);
+}
+
+void FrameLoop::sendDigests(const net::Frame& frame) {
+    if (frame.digest) host_->send(net::Digest{.n = frame.n, .digest = session_->scene->digest()});
+    if (frame.digests) host_->send(net::digestsOf(frame.n, *session_->scene));
 }
 
 void FrameLoop::tellDepth(std::uint64_t n, bool drawn) {
@@ -212,6 +216,7 @@ void FrameLoop::take(const net::Fit& fit) {
     const auto since = Clock::now();
     const bool changed = apply(fit.changes) || waitingChanged_;
     const net::Frame frame = *std::exchange(waiting_, std::nullopt);
+    sendDigests(frame);
     renderFrame(frame.n, frame.time, frame.capture, changed, since);
 }
 

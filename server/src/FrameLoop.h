@@ -46,6 +46,7 @@ private:
     bool apply(const field::ChangeList& changes);
     void renderFrame(std::uint64_t n, double time, bool capture, bool changed,
                      std::chrono::steady_clock::time_point since, bool tellsDepth = false);
+    void sendDigests(const net::Frame& frame);
     /// @param drawn  of the pictures as they are; else depth alone is drawn first
     void tellDepth(std::uint64_t n, bool drawn);
     void findWindows(const field::Applied& applied);

@@ -119,7 +119,7 @@ struct Ready {
     }
 };
 
-/// Aspect::digest() after frame n, before its Fit.
+/// Aspect::digest() after frame n and its Fit.
 struct Digest {
     static constexpr MessageType type = MessageType::digest;
     static constexpr std::string_view name = "Digest";
@@ -145,7 +145,7 @@ struct OneDigest {
     }
 };
 
-/// Aspect::digests() after frame n, before its Fit; the first maxDigests of them.
+/// Aspect::digests() after frame n and its Fit; the first maxDigests of them.
 struct Digests {
     static constexpr MessageType type = MessageType::digests;
     static constexpr std::string_view name = "Digests";
