@@ -24,7 +24,7 @@ public:
     /// How long the owner may be away before the helper takes over; Ping waits so long at most.
     static constexpr Milliseconds patience{20};
     /// The same while messages are expected (see setEager).
-    static constexpr std::chrono::microseconds eagerPatience{200};
+    static constexpr Milliseconds eagerPatience{1};
 
     Reactor() : helper_{[this] { help(); }} {}
     ~Reactor() { end(); }
@@ -87,7 +87,7 @@ public:
         giveBack();
     }
     /// From within a handler or alone(): whether the helper is to take over soon after the owner
-    /// has left. It costs a thread switch each time.
+    /// has left.
     void setEager(bool eager) noexcept { eager_ = eager; }
     /// From any thread: makes runUntil() look at done() again.
     void nudge() {
@@ -119,19 +119,21 @@ private:
         awaySince_ = SteadyClock::now().time_since_epoch();
         inside_ = false;
         baton_.unlock();
-        if (!eager_) return;
+        // While the owner comes and goes the helper looks by itself now and then: to wake it each
+        // time would cost a thread switch.
+        if (!eager_ || !asleep_) return;
         const std::lock_guard lock{mutex_};
         wake_.notify_one();
     }
     void help() {
         std::unique_lock lock{mutex_};
         while (!stop_) {
-            const SteadyClock::duration limit =
-                eager_ && !inside_ ? SteadyClock::duration{eagerPatience} : patience;
+            const Milliseconds limit = eager_ ? eagerPatience : patience;
             const auto away = SteadyClock::now().time_since_epoch() - awaySince_.load();
             if (inside_ || away < limit || !baton_.try_lock()) {
-                const bool rest = !inside_ && away < limit;
-                wake_.wait_for(lock, rest ? limit - away : SteadyClock::duration{patience});
+                asleep_ = limit == patience;
+                wake_.wait_for(lock, limit);
+                asleep_ = false;
                 continue;
             }
             lock.unlock();
@@ -157,6 +159,7 @@ private:
     std::atomic<SteadyClock::duration> awaySince_{SteadyClock::now().time_since_epoch()};
     std::atomic<int> posted_{0};  // by enter(), not called yet
     std::atomic<bool> eager_{false};
+    std::atomic<bool> asleep_{false};  // the helper, for `patience`
     std::atomic<bool> stop_{false};
     std::exception_ptr error_;  // with the baton
     std::mutex mutex_;

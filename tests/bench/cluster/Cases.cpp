@@ -8,6 +8,8 @@
 #include <chrono>
 #include <random>
 
+#include "Floor.h"
+
 namespace gnomon::bench {
 namespace {
 
@@ -120,10 +122,16 @@ Row measure(const std::string& name, const ClusterOptions& options, double secon
         row.bytes = static_cast<double>(bulkBytes) * options.servers;
     } else if (name == "sync") {
         taken = sync(options);
+    } else if (name == "floor") {
+        taken = floorOf(options.servers, seconds);
+        row.pipeline = 1;
+        row.relay = 0;
+        row.tls = false;
     } else if (name == "idle" || std::from_chars(name.data(), end, transforms).ptr == end) {
         taken = frames(options, transforms, seconds);
     } else {
-        throw Failure{Errc::config, "case \"" + name + "\", expected idle, bulk, sync or a number"};
+        throw Failure{Errc::config,
+                      "case \"" + name + "\", expected floor, idle, bulk, sync or a number"};
     }
     row.samples = taken.size();
     row.median = quantile(taken, 0.5);

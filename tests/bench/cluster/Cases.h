@@ -21,6 +21,7 @@ struct Row {
 };
 
 /// The cases by name.
+/// - `floor`: see floorOf().
 /// - `idle`: a frame in which nothing changes: Frame and Swap to each server, Ready from each.
 /// - a number: a frame in which so many transforms change; their edits and the commit included.
 /// - `bulk`: a frame that brings a payload of 100 MiB.
