@@ -80,6 +80,7 @@ std::string growthSvg(const std::vector<Row>& rows) {
                           .align = client::Plot::Text::Align::centre,
                           .color = black});
     std::size_t next = 0;
+    std::vector<client::Plot::Text> labels;
     for (auto& [name, points] : lines) {
         const auto& color = colors[next++ % colors.size()];
         std::sort(points.begin(), points.end(),
@@ -93,11 +94,19 @@ std::string growthSvg(const std::vector<Row>& rows) {
                                   .filled = true,
                                   .color = color});
         }
-        plot.texts.push_back({.x = line.points.back()[0] + 8,
-                              .y = line.points.back()[1] + 4,
-                              .text = name,
-                              .color = color});
+        labels.push_back({.x = line.points.back()[0] + 8,
+                          .y = line.points.back()[1] + 4,
+                          .text = name,
+                          .color = color});
         plot.lines.push_back(std::move(line));
+    }
+    // One below the other where lines end close together.
+    std::sort(labels.begin(), labels.end(), [](const auto& a, const auto& b) { return a.y < b.y; });
+    double free = 0;
+    for (auto& one : labels) {
+        one.y = std::max(one.y, free);
+        free = one.y + 14;
+        plot.texts.push_back(one);
     }
     return client::plotSvg(plot);
 }
