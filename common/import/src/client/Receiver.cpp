@@ -21,11 +21,8 @@ constexpr std::uint64_t firstStep = std::uint64_t{1} << 20U;
 
 }  // namespace
 
-Receiver::Receiver(const Child& child, Clock::time_point deadline, Progress progress)
-    : out_{child.output()},
-      err_{child.errors()},
-      deadline_{deadline},
-      progress_{std::move(progress)} {}
+Receiver::Receiver(int output, int errors, Clock::time_point deadline, Progress progress)
+    : out_{output}, err_{errors}, deadline_{deadline}, progress_{std::move(progress)} {}
 
 void Receiver::takeErrors() {
     std::array<char, 4096> buffer{};

@@ -19,7 +19,10 @@ public:
     using Progress = std::function<void(double, const std::string&)>;
 
     /// @p child outlives the receiver.
-    Receiver(const Child& child, Clock::time_point deadline, Progress progress);
+    Receiver(const Child& child, Clock::time_point deadline, Progress progress)
+        : Receiver{child.output(), child.errors(), deadline, std::move(progress)} {}
+    /// Its two pipes, which stay the caller's.
+    Receiver(int output, int errors, Clock::time_point deadline, Progress progress);
 
     /// The whole stream. @p maxBytes: the most that its parts may hold together. Errors:
     /// Errc::timeout at the deadline; Errc::disconnected where it ends early; Errc::protocol;
