@@ -105,6 +105,7 @@ Result<void> Peer::welcome(std::span<const std::byte> body) {
     if (auto agreed = owner_.checkSchema(hello->schema, "server " + label()); !agreed)
         return agreed;
     description_ = hello->description;
+    unfit_ = false;
     state_ = ServerState::joining;
     timer_.after(std::min(connectLimit, options_.startTimeout), [this] {
         drop({.code = Errc::timeout, .what = label() + ": no answer to the bulk connection"});
@@ -164,7 +165,8 @@ Result<void> Peer::received(Channel& from, MessageType type, std::span<const std
     if (type == MessageType::refused) {
         auto refused = decode<wire::Refused>(body);
         if (!refused) return tl::unexpected{std::move(refused).error()};
-        drop({.code = Errc::disconnected,
+        const bool final = refused->cure == wire::Cure::restart;
+        drop({.code = final ? Errc::protocol : Errc::disconnected,
               .what = fmt::format("{}: refused: {}", label(), refused->why)});
         return {};
     }
@@ -292,10 +294,12 @@ void Peer::drop(Error why) {
     closeAll();
     state_ = ServerState::waiting;
     lastError_ = why.text();
+    // Within a session these are a fault, which may pass; before it they are what the two are.
+    unfit_ = !everMember && (why.code == Errc::protocol || why.code == Errc::schema);
     if (standing.member) ++timesLost;
     if (!stopping_ && lastError_ != lastLogged_) {
         lastLogged_ = lastError_;
-        owner_.log(standing.member ? LogLevel::warning : LogLevel::info, lastError_);
+        owner_.log(standing.member || unfit_ ? LogLevel::warning : LogLevel::info, lastError_);
     }
     owner_.lost(*this, why);
     standing = {};
@@ -355,6 +359,7 @@ ServerStatus Peer::status() const {
     ServerStatus status{.address = address_,
                         .state = state_,
                         .text = stateText(),
+                        .unfit = unfit_,
                         .description = description_,
                         .lastReady = standing.lastReady,
                         .stats = standing.stats,

@@ -153,6 +153,7 @@ private:
     std::uint64_t imageArrived_ = 0;
     std::string description_;
     std::string lastError_, lastLogged_;
+    bool unfit_ = false;  // see ServerStatus
     Milliseconds retryDelay_{50};
     Timer timer_, pingTimer_;
     std::uint64_t pastControlBytes_ = 0, pastControlWrites_ = 0, pastBulkBytes_ = 0;

@@ -23,12 +23,6 @@ constexpr std::size_t gltf = 0, obj = 1, ply = 2, mtl = 3, image = 4;
 /// A few pixels each.
 constexpr std::string_view bmp =
     "Qk06AAAAAAAAADYAAAAoAAAAAQAAAAEAAAABABgAAAAAAAQAAAATCwAAEwsAAAAAAAAAAAAAAAD/AA==";
-constexpr std::string_view jpeg =
-    "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDABsSFBcUERsXFhceHBsgKEIrKCUlKFE6PTBCYFVlZF9VXVtqeJmBanGQ"
-    "c1tdhbWGkJ6jq62rZ4C8ybqmx5moq6T/2wBDARweHigjKE4rK06kbl1upKSkpKSkpKSkpKSkpKSkpKSkpKSkpKSk"
-    "pKSkpKSkpKSkpKSkpKSkpKSkpKSkpKSkpKT/wAARCAABAAIDASIAAhEBAxEB/8QAFQABAQAAAAAAAAAAAAAAAAAA"
-    "AAP/xAAZEAEAAgMAAAAAAAAAAAAAAAAAAQIDM3L/xAAUAQEAAAAAAAAAAAAAAAAAAAAF/8QAGhEAAgIDAAAAAAAA"
-    "AAAAAAAAAAECAzEzcf/aAAwDAQACEQMRAD8Aph005gAQ8gtuyXWf/9k=";
 constexpr std::string_view tga = "AAACAAAAAAAAAAAAAQABABgAAAD/";
 
 std::span<const std::byte> raw(const std::string& text) { return std::as_bytes(std::span{text}); }
@@ -122,8 +116,9 @@ void addModelSeeds(const Seeds& seeds) {
     seeds.add("model", "red.mtl", mtl,
               raw("newmtl red\nKd 1 0 0\nKs 1 1 1\nNs 50\nKe 0 0 0\nd 0.5\nmap_Kd -s 1 1 1 a.png\n"
                   "map_bump -bm 2 b.png\nnorm c.png\nmap_d d.png\n"));
+    seeds.add("model", "jpeg", image, raw(importer::jpeg()));
     seeds.add("model", "png", image, raw(importer::png(2, 2, {1, 2, 3, 4})));
-    for (const auto& [name, text] : {std::pair{"bmp", bmp}, {"tga", tga}, {"jpeg", jpeg}}) {
+    for (const auto& [name, text] : {std::pair{"bmp", bmp}, {"tga", tga}}) {
         const auto bytes = orThrow(importer::base64Decoded(text));
         orThrow(importer::decodedImage(bytes));
         seeds.add("model", name, image, bytes);

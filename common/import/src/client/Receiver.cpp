@@ -134,8 +134,9 @@ Result<field::ChangeList> Receiver::receive(std::uint64_t maxBytes) {
     return list;
 }
 
-Result<void> Receiver::drain() {
+Result<std::uint64_t> Receiver::drain() {
     std::array<std::byte, 4096> buffer{};
+    std::uint64_t thrownAway = 0;
     for (bool open = true; open || err_ >= 0;) {
         if (!open) {  // a closed pipe would wake poll() again and again
             const auto left =
@@ -151,8 +152,9 @@ Result<void> Receiver::drain() {
         if (!*readable) continue;
         const auto count = ::read(out_, buffer.data(), buffer.size());
         open = count > 0 || (count < 0 && errno == EINTR);
+        if (count > 0) thrownAway += static_cast<std::uint64_t>(count);
     }
-    return {};
+    return thrownAway;
 }
 
 std::string Receiver::complaint() const {

@@ -28,8 +28,9 @@ public:
     /// Errc::timeout at the deadline; Errc::disconnected where it ends early; Errc::protocol;
     /// Errc::limit.
     Result<field::ChangeList> receive(std::uint64_t maxBytes);
-    /// Reads on, and throws away, until both pipes are closed or the deadline has passed.
-    Result<void> drain();
+    /// Reads on, and throws away, until both pipes are closed or the deadline has passed. How many
+    /// bytes of standard output that were.
+    Result<std::uint64_t> drain();
     /// The first line on standard error that is no progress; cut to a sane length.
     std::string complaint() const;
 
