@@ -219,7 +219,11 @@ Result<void> Peer::received(Channel& from, MessageType type, std::span<const std
 Result<void> Peer::pongArrived(std::span<const std::byte> body) {
     auto pong = decode<wire::Pong>(body);
     if (!pong) return tl::unexpected{std::move(pong).error()};
-    clock_.add(pong->sentAt, pong->serverClock, steadyNanoseconds());
+    const std::int64_t now = steadyNanoseconds();
+    if (pong->sentAt < 0 || pong->sentAt > now)
+        return fail(Errc::protocol,
+                    fmt::format("Pong to a Ping of {} ns, at {}", pong->sentAt, now));
+    clock_.add(pong->sentAt, pong->serverClock, now);
     if (pong->arrived > arrived_) arrivedAt_ = SteadyClock::now();
     arrived_ = pong->arrived;
     const bool news = !pong_ || pong_->activity != pong->activity;
