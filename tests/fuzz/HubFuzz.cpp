@@ -62,7 +62,7 @@ class Rig {
 public:
     explicit Rig(const Listener& listener)
         : listener_{listener},
-          core_{io_, types_, {.digestEvery = 2}, hooks(), nullptr, mailbox_},
+          core_{io_, types_, {.digestEvery = 2}, hooks(), nullptr},
           top_{scene::makeNode<scene::Group>(application_, "top").node} {
         handOver(false);
         core_.connect({.name = "fuzzer", .host = "127.0.0.1", .port = listener.port()});
@@ -136,7 +136,6 @@ private:
     const Listener& listener_;
     const field::TypeRegistry& types_ = sceneTypes();
     net::asio::io_context io_{1};
-    net::Mailbox mailbox_;
     net::HubCore core_;
     field::Aspect application_{types_, 2};
     const scene::Node& top_;
