@@ -257,8 +257,7 @@ Result<void> Peer::imagePart(std::span<const std::byte> body) {
     if (imageArrived_ < part->total()) return {};
     Image whole = std::move(*image_);
     image_.reset();
-    owner_.image(*this, std::move(whole));
-    return {};
+    return owner_.image(*this, std::move(whole));
 }
 
 void Peer::drained(Channel& channel) {

@@ -33,7 +33,7 @@ public:
     virtual void digest(Peer& peer, const Digest& digest) = 0;
     virtual void digests(Peer& peer, const Digests& digests) = 0;
     virtual void event(Peer& peer, const InputEvent& event) = 0;
-    virtual void image(Peer& peer, Image image) = 0;
+    virtual Result<void> image(Peer& peer, Image image) = 0;
     virtual void relayLost(Peer& peer, const wire::RelayLost& lost) = 0;
     virtual void log(LogLevel level, const std::string& text) = 0;
     /// Something status() shows is different.
