@@ -5,9 +5,9 @@
 #include <seccomp.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <initializer_list>
 #include <memory>
-#include <type_traits>
 
 #include "format/Sanitizer.h"
 
@@ -65,6 +65,11 @@ constexpr int useless[]{SCMP_SYS(execve),
                         SCMP_SYS(bpf),
                         SCMP_SYS(perf_event_open)};
 
+/// Argument @p which, of which only the bits of @p mask count, is @p value.
+constexpr scmp_arg_cmp argument(unsigned which, scmp_datum_t mask, scmp_datum_t value) {
+    return {.arg = which, .op = SCMP_CMP_MASKED_EQ, .datum_a = mask, .datum_b = value};
+}
+
 }  // namespace
 
 bool confineProcess() {
@@ -80,11 +85,11 @@ bool confineProcess() {
     for (const int call : {SCMP_SYS(clone3), SCMP_SYS(openat2), SCMP_SYS(io_uring_setup)})
         rule(unknown, call);
     // Threads may be; processes may not.
-    rule(forbidden, SCMP_SYS(clone), SCMP_A0(SCMP_CMP_MASKED_EQ, CLONE_THREAD, 0));
+    rule(forbidden, SCMP_SYS(clone), argument(0, CLONE_THREAD, 0));
     for (const int mode : {O_WRONLY, O_RDWR}) {
-        const auto as = static_cast<scmp_datum_t>(mode);
-        rule(forbidden, SCMP_SYS(open), SCMP_A1(SCMP_CMP_MASKED_EQ, O_ACCMODE, as));
-        rule(forbidden, SCMP_SYS(openat), SCMP_A2(SCMP_CMP_MASKED_EQ, O_ACCMODE, as));
+        const auto to = static_cast<scmp_datum_t>(mode);
+        rule(forbidden, SCMP_SYS(open), argument(1, O_ACCMODE, to));
+        rule(forbidden, SCMP_SYS(openat), argument(2, O_ACCMODE, to));
     }
     return made && seccomp_load(filter.get()) == 0;
 }
