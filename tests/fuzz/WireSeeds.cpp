@@ -42,6 +42,10 @@ void addWireSeeds(const Seeds& seeds) {
         {.sentAt = 1, .serverClock = 2, .current = 7, .busyMs = 30},
         {.level = net::wire::LogLevel::warning, .text = "hot"},
         {.n = 5, .window = 2, .width = 10, .height = 5, .channels = 3, .tail = bytes},
+        {.token = 7, .host = "127.0.0.1", .port = 7430, .after = 3, .uploads = {1, 2}},
+        {.token = 7},
+        {.token = 7, .why = "refused"},
+        {.n = 5, .list = {{.id = 1, .digest = 2}, {.id = 3}}},
     };
     addMessages(seeds, messages, std::make_index_sequence<messageCount>{});
     seeds.add("wire", "schema", schemaNumber, schema);
