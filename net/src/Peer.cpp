@@ -24,8 +24,7 @@ std::uint64_t randomToken() {
 
 Peer::Peer(asio::io_context& io, ServerAddress address, const SyncOptions& options,
            PeerOwner& owner, std::shared_ptr<const TlsContext> tls)
-    : io_{io},
-      address_{std::move(address)},
+    : address_{std::move(address)},
       options_{options},
       owner_{owner},
       tls_{std::move(tls)},

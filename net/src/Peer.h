@@ -132,7 +132,6 @@ private:
     void closeAll();
     std::string stateText() const;
 
-    asio::io_context& io_;
     ServerAddress address_;
     const SyncOptions& options_;
     PeerOwner& owner_;
