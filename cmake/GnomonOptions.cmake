@@ -3,6 +3,8 @@
 set(GNOMON_SANITIZE "" CACHE STRING "Sanitizers for -fsanitize=, e.g. address,undefined or thread")
 option(GNOMON_CORE_ONLY "Build only base, math, field, scene and net (what the thread sanitizer looks at)" OFF)
 
+option(GNOMON_FUZZ "Build only what is fuzzed, and its libFuzzer targets; needs clang" OFF)
+
 option(GNOMON_UNITY "Compile sources in batches, which halves the work of headers" ON)
 
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
@@ -28,6 +30,11 @@ endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC 12 warns wrongly of overlap in std::string's operator+ (GCC bug 105651).
   target_compile_options(gnomon_options INTERFACE -Wno-restrict)
+endif()
+
+if(GNOMON_FUZZ)
+  # Coverage is what steers libFuzzer; its main() is linked to the targets alone.
+  target_compile_options(gnomon_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")

@@ -124,6 +124,7 @@ Result<void> ServerLink::start(field::ChangeList everything,
             if (auto healthy = launcher_->health(); !healthy) return healthy;
         }
         if (keepGoing && !keepGoing()) return fail(Errc::timeout, "given up while starting");
+        if (auto fit = startedFit(); !fit) return fit;
         const auto slice = Clock::now() + 100ms;
         const auto joined = hub_.waitForAll(progress, slice);
         if (joined && listened_.size() >= launched_) break;
@@ -134,6 +135,15 @@ Result<void> ServerLink::start(field::ChangeList everything,
         listens_.wait_until(lock, slice, [&] { return !listening_.empty(); });
     }
     if (launcher_) launcher_->startupDone();
+    return {};
+}
+
+/// Servers started from here would only be started again as they are. Those that run already may
+/// be put right meanwhile by whoever runs them.
+Result<void> ServerLink::startedFit() const {
+    for (const auto& server : hub_.status())
+        if (server.unfit && listened_.contains(server.address.name))
+            return fail(Errc::protocol, server.text);
     return {};
 }
 

@@ -38,6 +38,7 @@ private:
     /// Tells the hub of servers that listen since the last call: its functions are for one thread.
     void connectNew();
     net::HubHooks hooks() const;
+    Result<void> startedFit() const;
     Result<void> silentServers() const;
 
     const LogCallback log_;

@@ -13,6 +13,9 @@ namespace gnomon::net {
 /// Collects the pictures of captured frames until they are taken; keeps the newest two frames'.
 class CaptureBoard {
 public:
+    /// @param maxBytes  of one frame's pictures from one server; it holds no more back itself
+    explicit CaptureBoard(std::uint64_t maxBytes = std::uint64_t{2} << 30U) : maxBytes_{maxBytes} {}
+
     void begin(std::uint64_t n, const std::vector<std::string>& members) {
         Capture& capture = captures_[n];
         for (const auto& name : members) capture.awaited[name] = {};
@@ -23,11 +26,18 @@ public:
         const auto found = captures_.find(n);
         if (found != captures_.end()) found->second.awaited[server].expected = images;
     }
-    void add(const std::string& server, Image image) {
+    Result<void> add(const std::string& server, Image image) {
         const auto found = captures_.find(image.n);
-        if (found == captures_.end()) return;  // nobody waits for it any more
-        ++found->second.awaited[server].arrived;
+        if (found == captures_.end()) return {};  // nobody waits for it any more
+        Server& from = found->second.awaited[server];
+        const std::uint64_t bytes = image.pixels.size() + sizeof(TileImage);
+        if (bytes > maxBytes_ - from.bytes)
+            return fail(Errc::limit, "more than " + std::to_string(maxBytes_) +
+                                         " bytes of pictures of frame " + std::to_string(image.n));
+        from.bytes += bytes;
+        ++from.arrived;
         found->second.images.push_back({.server = server, .image = std::move(image)});
+        return {};
     }
     void lost(const std::string& server) {
         for (auto& [n, capture] : captures_) {
@@ -78,6 +88,7 @@ private:
     struct Server {
         std::optional<std::uint32_t> expected = {};
         std::uint32_t arrived = 0;
+        std::uint64_t bytes = 0;
         bool complete() const { return expected && arrived >= *expected; }
     };
     struct Capture {
@@ -86,6 +97,7 @@ private:
         std::string missing = {};
         bool shown = false;
     };
+    const std::uint64_t maxBytes_;
     std::map<std::uint64_t, Capture> captures_;
 };
 

@@ -84,7 +84,9 @@ void Channel::ended(error_code ec) {
     if (!tls_ && speaksTls(std::span{input_}.first(end_).subspan(begin_)))
         return fail("it speaks TLS: a cluster key is needed on this side, too");
     if (!isSecured())
-        return fail("it ended the connection within the TLS handshake: has it the cluster key?");
+        return fail({.code = Errc::disconnected,  // of one that dies, too
+                     .what = remote_ + ": it ended the connection within the TLS handshake: has it "
+                                       "the cluster key?"});
     fail({.code = Errc::disconnected, .what = remote_, .cause = ec});
 }
 

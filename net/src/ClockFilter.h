@@ -8,6 +8,11 @@
 
 namespace gnomon::net {
 
+/// a - b of clocks that may be anything: wraps round, as a clock does.
+inline std::int64_t clockDifference(std::int64_t a, std::int64_t b) noexcept {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b));
+}
+
 /// How far a server's steady clock is ahead of ours, from Ping round trips.
 ///
 /// Of the last 16 trips the shortest counts: whatever delays a trip makes it longer, and the error
@@ -15,10 +20,12 @@ namespace gnomon::net {
 /// Computer Network Clocks. 1995. (The minimum filter only; drift over 16 pings is negligible.)
 class ClockFilter {
 public:
-    /// All in nanoseconds: our clock at sending and receiving, the server's in between.
+    /// All in nanoseconds: our clock at sending and receiving, the server's (which may say
+    /// anything) in between.
+    /// @pre 0 <= sent
     void add(std::int64_t sent, std::int64_t server, std::int64_t received) {
         const std::int64_t trip = std::max<std::int64_t>(received - sent, 0);
-        samples_[count_ % samples_.size()] = {trip, server - (sent + trip / 2)};
+        samples_[count_ % samples_.size()] = {trip, clockDifference(server, sent + trip / 2)};
         ++count_;
     }
     bool known() const noexcept { return count_ > 0; }

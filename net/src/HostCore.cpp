@@ -111,8 +111,8 @@ std::shared_ptr<Channel> HostCore::takeGuest(Channel& channel) {
     return taken;
 }
 
-void HostCore::refuse(std::shared_ptr<Channel> channel, const std::string& why) {
-    channel->send(Part::of(packet(wire::Refused{.why = why.substr(0, 4096)})));
+void HostCore::refuse(std::shared_ptr<Channel> channel, const std::string& why, wire::Cure cure) {
+    channel->send(Part::of(packet(wire::Refused{.why = why.substr(0, 4096), .cure = cure})));
     channel->finish();
     auto limit = std::make_unique<Timer>(io_);
     limit->after(sendFarewell, [this, raw = channel.get()] {
@@ -133,7 +133,7 @@ Result<void> HostCore::greeted(Channel& from, std::span<const std::byte> body) {
     if (!guest) return {};
     auto hello = decode<wire::ClientHello>(body);
     if (!hello) {
-        refuse(guest, hello.error().what);
+        refuse(guest, hello.error().what, wire::Cure::restart);
     } else if (hello->role == wire::Role::bulk) {
         if (!session_ || session_->bulk || session_->token != hello->token) {
             refuse(guest, fmt::format("server \"{}\": this bulk connection belongs to no session",
@@ -330,7 +330,8 @@ void HostCore::endSession(const Error& why, bool tellClient) {
     if (ended->relay) ended->relay->close();
     ended->relays.reset();
     if (tellClient && ended->control->isOpen())
-        refuse(ended->control, why.text());
+        refuse(ended->control, why.text(),
+               why.code == Errc::schema ? wire::Cure::restart : wire::Cure::time);
     else
         ended->control->close();
     inbox_.dropSession();

@@ -76,7 +76,8 @@ private:
     void answer(const wire::Ping& ping);
     void watch();
     void endSession(const Error& why, bool tellClient);
-    void refuse(std::shared_ptr<Channel> channel, const std::string& why);
+    void refuse(std::shared_ptr<Channel> channel, const std::string& why,
+                wire::Cure cure = wire::Cure::time);
     std::shared_ptr<Channel> takeGuest(Channel& channel);
     void makeRoom();
     void report(const std::string& why);

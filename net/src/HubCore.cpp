@@ -92,9 +92,10 @@ void HubCore::event(Peer& peer, const InputEvent& event) {
     events_.push_back({.server = peer.name(), .event = event});
 }
 
-void HubCore::image(Peer& peer, Image image) {
-    captures_.add(peer.name(), std::move(image));
+Result<void> HubCore::image(Peer& peer, Image image) {
+    auto kept = captures_.add(peer.name(), std::move(image));
     changed();
+    return kept;
 }
 
 void HubCore::log(LogLevel level, const std::string& text) {

@@ -59,7 +59,7 @@ public:
     void digest(Peer& peer, const Digest& digest) override;
     void digests(Peer& peer, const Digests& digests) override;
     void event(Peer& peer, const InputEvent& event) override;
-    void image(Peer& peer, Image image) override;
+    Result<void> image(Peer& peer, Image image) override;
     void relayLost(Peer& peer, const wire::RelayLost& lost) override;
     void log(LogLevel level, const std::string& text) override;
     void changed() override;

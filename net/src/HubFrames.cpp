@@ -240,7 +240,9 @@ std::optional<double> HubCore::skewOf(std::uint64_t n) const {
         last = std::max(last, standing.shownAt);
     }
     if (first > last) return {};
-    return static_cast<double>(last - first) * 1e-6;
+    return static_cast<double>(static_cast<std::uint64_t>(last) -
+                               static_cast<std::uint64_t>(first)) *
+           1e-6;
 }
 
 void HubCore::flushAll() {

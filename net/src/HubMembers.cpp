@@ -85,7 +85,7 @@ Result<void> HubCore::ready(Peer& peer, const Ready& ready) {
     standing.stats = ready.stats;
     standing.shownFrame = ready.shownFrame;
     if (const auto offset = peer.clock().offset())
-        standing.shownAt = ready.shownAt - *offset;
+        standing.shownAt = clockDifference(ready.shownAt, *offset);
     else
         standing.shownFrame = 0;
     captures_.expect(ready.n, peer.name(), ready.images);

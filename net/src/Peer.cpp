@@ -24,8 +24,7 @@ std::uint64_t randomToken() {
 
 Peer::Peer(asio::io_context& io, ServerAddress address, const SyncOptions& options,
            PeerOwner& owner, std::shared_ptr<const TlsContext> tls)
-    : io_{io},
-      address_{std::move(address)},
+    : address_{std::move(address)},
       options_{options},
       owner_{owner},
       tls_{std::move(tls)},
@@ -105,6 +104,7 @@ Result<void> Peer::welcome(std::span<const std::byte> body) {
     if (auto agreed = owner_.checkSchema(hello->schema, "server " + label()); !agreed)
         return agreed;
     description_ = hello->description;
+    unfit_ = false;
     state_ = ServerState::joining;
     timer_.after(std::min(connectLimit, options_.startTimeout), [this] {
         drop({.code = Errc::timeout, .what = label() + ": no answer to the bulk connection"});
@@ -164,7 +164,8 @@ Result<void> Peer::received(Channel& from, MessageType type, std::span<const std
     if (type == MessageType::refused) {
         auto refused = decode<wire::Refused>(body);
         if (!refused) return tl::unexpected{std::move(refused).error()};
-        drop({.code = Errc::disconnected,
+        const bool final = refused->cure == wire::Cure::restart;
+        drop({.code = final ? Errc::protocol : Errc::disconnected,
               .what = fmt::format("{}: refused: {}", label(), refused->why)});
         return {};
     }
@@ -217,7 +218,11 @@ Result<void> Peer::received(Channel& from, MessageType type, std::span<const std
 Result<void> Peer::pongArrived(std::span<const std::byte> body) {
     auto pong = decode<wire::Pong>(body);
     if (!pong) return tl::unexpected{std::move(pong).error()};
-    clock_.add(pong->sentAt, pong->serverClock, steadyNanoseconds());
+    const std::int64_t now = steadyNanoseconds();
+    if (pong->sentAt < 0 || pong->sentAt > now)
+        return fail(Errc::protocol,
+                    fmt::format("Pong to a Ping of {} ns, at {}", pong->sentAt, now));
+    clock_.add(pong->sentAt, pong->serverClock, now);
     if (pong->arrived > arrived_) arrivedAt_ = SteadyClock::now();
     arrived_ = pong->arrived;
     const bool news = !pong_ || pong_->activity != pong->activity;
@@ -251,8 +256,7 @@ Result<void> Peer::imagePart(std::span<const std::byte> body) {
     if (imageArrived_ < part->total()) return {};
     Image whole = std::move(*image_);
     image_.reset();
-    owner_.image(*this, std::move(whole));
-    return {};
+    return owner_.image(*this, std::move(whole));
 }
 
 void Peer::drained(Channel& channel) {
@@ -292,10 +296,12 @@ void Peer::drop(Error why) {
     closeAll();
     state_ = ServerState::waiting;
     lastError_ = why.text();
+    // Within a session these are a fault, which may pass; before it they are what the two are.
+    unfit_ = !everMember && (why.code == Errc::protocol || why.code == Errc::schema);
     if (standing.member) ++timesLost;
     if (!stopping_ && lastError_ != lastLogged_) {
         lastLogged_ = lastError_;
-        owner_.log(standing.member ? LogLevel::warning : LogLevel::info, lastError_);
+        owner_.log(standing.member || unfit_ ? LogLevel::warning : LogLevel::info, lastError_);
     }
     owner_.lost(*this, why);
     standing = {};
@@ -355,6 +361,7 @@ ServerStatus Peer::status() const {
     ServerStatus status{.address = address_,
                         .state = state_,
                         .text = stateText(),
+                        .unfit = unfit_,
                         .description = description_,
                         .lastReady = standing.lastReady,
                         .stats = standing.stats,

@@ -33,7 +33,7 @@ public:
     virtual void digest(Peer& peer, const Digest& digest) = 0;
     virtual void digests(Peer& peer, const Digests& digests) = 0;
     virtual void event(Peer& peer, const InputEvent& event) = 0;
-    virtual void image(Peer& peer, Image image) = 0;
+    virtual Result<void> image(Peer& peer, Image image) = 0;
     virtual void relayLost(Peer& peer, const wire::RelayLost& lost) = 0;
     virtual void log(LogLevel level, const std::string& text) = 0;
     /// Something status() shows is different.
@@ -132,7 +132,6 @@ private:
     void closeAll();
     std::string stateText() const;
 
-    asio::io_context& io_;
     ServerAddress address_;
     const SyncOptions& options_;
     PeerOwner& owner_;
@@ -153,6 +152,7 @@ private:
     std::uint64_t imageArrived_ = 0;
     std::string description_;
     std::string lastError_, lastLogged_;
+    bool unfit_ = false;  // see ServerStatus
     Milliseconds retryDelay_{50};
     Timer timer_, pingTimer_;
     std::uint64_t pastControlBytes_ = 0, pastControlWrites_ = 0, pastBulkBytes_ = 0;

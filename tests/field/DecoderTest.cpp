@@ -128,13 +128,14 @@ TEST(Decoder, RangesOfMultiFieldsMustFit) {
     }
 }
 
-/// Largest block asked of the heap by this thread while it lives.
+/// What this thread asked of the heap while it lives: the largest block, and all together.
 class AllocationWatch {
 public:
-    AllocationWatch() { largest = 0; }
-    static thread_local std::size_t largest;
+    AllocationWatch() { largest = total = 0; }
+    static thread_local std::size_t largest, total;
 };
 thread_local std::size_t AllocationWatch::largest = 0;
+thread_local std::size_t AllocationWatch::total = 0;
 
 }  // namespace
 }  // namespace gnomon::field::test
@@ -148,6 +149,7 @@ thread_local std::size_t AllocationWatch::largest = 0;
 void* operator new(std::size_t size) {
     auto& largest = gnomon::field::test::AllocationWatch::largest;
     largest = std::max(largest, size);
+    gnomon::field::test::AllocationWatch::total += size;
     if (void* made = std::malloc(size)) return made;
     throw std::bad_alloc{};
 }
@@ -196,6 +198,33 @@ TEST(Decoder, AllocatesNoMoreThanTheBytesJustify) {
     const AllocationWatch watch;
     EXPECT_FALSE(other.agree(schema.written(), "a stranger").has_value());
     EXPECT_LT(watch.largest, 4096U);
+}
+
+TEST(Decoder, AContainerOfAStrangeTypeTakesNoRoomForWhatNobodyWrote) {
+    constexpr std::uint32_t fields = 32;
+    const std::string layout(64, 'd');
+    Writer schema;
+    schema.scalar(1U);
+    schema.string("Strange");
+    schema.scalar(fields);
+    for (std::uint32_t i = 0; i < fields; ++i) {
+        schema.string("f");
+        schema.string(layout);
+        schema.scalar(std::uint8_t{0});
+    }
+    TypeRegistry types;
+    expectApplied(types.agree(schema.written(), "a stranger"));
+    const auto list =
+        ListBuilder{}.header(1, 0, 0).scalar(typeIdOf("Strange")).id(Id::make(1, 1)).list();
+    Aspect aspect{types, 0};
+    const AllocationWatch watch;
+    expectApplied(aspect.apply(list));
+    EXPECT_LT(watch.total, 4096U);
+    // What nobody wrote is zero.
+    const auto snapshot = aspect.snapshot();
+    EXPECT_EQ(snapshot.bytes.size(), 13U + 12U + 12U + fields * 64U * 8U);
+    EXPECT_TRUE(std::all_of(snapshot.bytes.begin() + 37, snapshot.bytes.end(),
+                            [](std::byte b) { return b == std::byte{0}; }));
 }
 
 TEST(Decoder, RandomCorruptionIsRefusedOrUnderstood) {

@@ -43,6 +43,43 @@ TEST(Image, IsRefusedWhereItIsCutOrNone) {
     EXPECT_NE(decodeError("nothing of the kind"), "");
 }
 
+TEST(Image, MayBeAJpeg) {
+    const auto image = decodedImage(bytesOf(jpeg()));
+    ASSERT_TRUE(image) << image.error().text();
+    ASSERT_EQ(image->width, 2);
+    ASSERT_EQ(image->height, 1);
+    EXPECT_FALSE(image->hasAlpha);
+    const auto channel = [&](std::size_t i) { return std::to_integer<int>(image->pixels[i]); };
+    EXPECT_GT(channel(0), channel(1)) << "red first";
+    EXPECT_EQ(channel(3), 255);
+    // Damage at the end leaves a picture; damage at the beginning does not.
+    EXPECT_EQ(decodeError(jpeg().substr(0, jpeg().size() - 4)), "");
+    EXPECT_NE(decodeError(jpeg().substr(0, 100)), "");
+}
+
+// Found by a fuzzer: stb_image wrote past the end of its table.
+TEST(Image, IsRefusedWhereAJpegsCodesAreMoreThanThereAre) {
+    auto file = jpeg();
+    const auto table = file.find("\xff\xc4");
+    ASSERT_NE(table, std::string::npos);
+    for (std::size_t i = 0; i < 16; ++i) file[table + 5 + i] = '\xff';
+    EXPECT_NE(decodeError(file), "");
+}
+
+TEST(Image, OfSixteenBitsOrGreyBecomesEight) {
+    // 1 x 1, 16 bits of grey, stored: 0x80ff.
+    std::string file = png(1, 1, {0U});
+    file[24] = 16;  // depth
+    file[25] = 0;   // grey
+    const auto data = file.find("IDAT") + 4;
+    file.replace(data + 2 + 5, 5, std::string{"\0\x80\xff\0\0", 5});
+    const auto image = decodedImage(bytesOf(file));
+    ASSERT_TRUE(image) << image.error().text();
+    EXPECT_FALSE(image->hasAlpha);
+    EXPECT_EQ(image->pixels,
+              (Bytes{std::byte{0x80}, std::byte{0x80}, std::byte{0x80}, std::byte{255}}));
+}
+
 TEST(Image, KnowsItsMean) {
     const auto image = decodedImage(bytesOf(png(2, 1, {0xff000033U, 0x00ff0066U})));
     ASSERT_TRUE(image);

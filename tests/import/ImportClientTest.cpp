@@ -128,6 +128,8 @@ TEST_F(ImportClient, NoticesEveryKindOfDamage) {
         EXPECT_NE(error.what.find("good.glb: "), std::string::npos) << error.what;
     };
     damaged("magic", [](std::string& b) { b[0] = 'X'; });
+    damaged("version", [](std::string& b) { b[4] = static_cast<char>(b[4] + 1); });
+    damaged("more behind the end", [](std::string& b) { b.push_back('X'); });
     damaged("types", [](std::string& b) { b[9] = static_cast<char>(b[9] + 1); });
     damaged("cut in the header", [](std::string& b) { b.resize(20); });
     damaged("cut in the list", [](std::string& b) { b.resize(100); });

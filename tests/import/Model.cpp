@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "build/SceneBuilder.h"
+#include "input/Uri.h"
 #include "program/ReadModel.h"
 
 namespace gnomon::importer {
@@ -234,6 +235,16 @@ std::string png(std::uint32_t width, std::uint32_t height, const std::vector<std
     return "\x89PNG\r\n\x1a\n" +
            chunk("IHDR", side(width) + side(height) + std::string{8, 6, 0, 0, 0}) +
            chunk("IDAT", data) + chunk("IEND", "");
+}
+
+std::string jpeg() {
+    const auto bytes = orThrow(base64Decoded(
+        "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDABsSFBcUERsXFhceHBsgKEIrKCUlKFE6PTBCYFVlZF9VXVtqeJmBanGQ"
+        "c1tdhbWGkJ6jq62rZ4C8ybqmx5moq6T/2wBDARweHigjKE4rK06kbl1upKSkpKSkpKSkpKSkpKSkpKSkpKSkpKSk"
+        "pKSkpKSkpKSkpKSkpKSkpKSkpKSkpKSkpKT/wAARCAABAAIDASIAAhEBAxEB/8QAFQABAQAAAAAAAAAAAAAAAAAA"
+        "AAP/xAAZEAEAAgMAAAAAAAAAAAAAAAAAAQIDM3L/xAAUAQEAAAAAAAAAAAAAAAAAAAAF/8QAGhEAAgIDAAAAAAAA"
+        "AAAAAAAAAAECAzEzcf/aAAwDAQACEQMRAD8Aph005gAQ8gtuyXWf/9k="));
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 std::filesystem::path sharedScenes() {

@@ -128,6 +128,9 @@ std::string faultsOf(const scene::Geometry& geometry);
 std::string png(std::uint32_t width, std::uint32_t height, const std::vector<std::uint32_t>& rgba,
                 std::uint32_t claimed = 0);
 
+/// A JPEG of two pixels, red and green.
+std::string jpeg();
+
 /// Where the development scenes are, or empty.
 std::filesystem::path sharedScenes();
 

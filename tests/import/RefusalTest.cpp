@@ -219,5 +219,10 @@ TEST(Glb, IsRefusedWhereItsLengthsLie) {
     EXPECT_NE(refusal("a.glb", "\x89PNG\r\n\x1a\n" + std::string(4096, 'x')), "");
 }
 
+TEST(Refused, IsAssimpsOwnDump) {
+    const auto why = refusal("model.assbin", "ASSIMP.binary-dump." + std::string(600, '\0'));
+    EXPECT_NE(why.find("No suitable reader"), std::string::npos) << why;
+}
+
 }  // namespace
 }  // namespace gnomon::importer

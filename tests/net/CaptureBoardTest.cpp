@@ -33,6 +33,18 @@ TEST(CaptureBoard, AServerThatGaveItsPicturesMayGo) {
     EXPECT_TRUE(*taken);
 }
 
+TEST(CaptureBoard, StopsAServerThatSendsPicturesWithoutEnd) {
+    CaptureBoard board{1'000'000};
+    board.begin(7, {"a", "b"});
+    const auto picture = [] { return Image{.n = 7, .pixels = std::vector<std::uint8_t>(1000)}; };
+    int taken = 0;
+    while (taken < 1000 && board.add("a", picture())) ++taken;
+    EXPECT_GT(taken, 500);
+    EXPECT_LT(taken, 1000);
+    EXPECT_TRUE(board.add("b", picture())) << "each has its own";
+    EXPECT_TRUE(board.add("a", {.n = 6})) << "nobody waits for that one";
+}
+
 TEST(CaptureBoard, KeepsTheNewestTwo) {
     CaptureBoard board;
     for (std::uint64_t n = 1; n <= 3; ++n) {

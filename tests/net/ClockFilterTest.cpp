@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "ClockFilter.h"
@@ -27,6 +28,19 @@ TEST(ClockFilter, FindsTheOffsetWithinHalfTheShortestTrip) {
     }
     EXPECT_EQ(filter.trip(), shortest);
     EXPECT_LE(std::abs(*filter.offset() - offset), shortest / 2);
+}
+
+// Found by a fuzzer: a sum that no integer holds.
+TEST(ClockFilter, TakesWhateverAServerSaysItsClockIs) {
+    constexpr auto most = std::numeric_limits<std::int64_t>::max();
+    constexpr auto least = std::numeric_limits<std::int64_t>::min();
+    for (const std::int64_t server : {most, least, most - 5, std::int64_t{-1}}) {
+        ClockFilter filter;
+        filter.add(100, server, 200);
+        ASSERT_TRUE(filter.offset());
+        // What it says next, by the same clock, is so much later by ours.
+        EXPECT_EQ(clockDifference(clockDifference(server, -10), *filter.offset()), 160);
+    }
 }
 
 TEST(ClockFilter, ForgetsOldTrips) {

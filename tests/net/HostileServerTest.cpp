@@ -89,6 +89,12 @@ TEST_F(Hostile, ThatIsReadyForFramesThatWereNeverSentIsDropped) {
     expectDropped("Ready 1000000 out of turn");
 }
 
+TEST_F(Hostile, ThatAnswersAPingThatWasNeverSentIsDropped) {
+    startBoth();
+    fake_.control().send(packet(wire::Pong{.sentAt = -1, .serverClock = 1}));
+    expectDropped("Pong to a Ping of -1 ns");
+}
+
 TEST_F(Hostile, ThatSendsAPictureOutOfOrderIsDropped) {
     startBoth();
     const std::vector<std::byte> pixels(30);

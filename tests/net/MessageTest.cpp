@@ -73,7 +73,7 @@ std::vector<Sample> samples() {
         sample("serverHello",
                wire::ServerHello{
                    .server = "left", .description = "llvmpipe", .schema = someBytes(20)}),
-        sample("refused", wire::Refused{.why = "not today"}),
+        sample("refused", wire::Refused{.why = "not today", .cure = wire::Cure::restart}),
         sample("depth", wire::Depth{.n = 5, .min = 0.5F, .max = 40}),
         sample("ready", wire::Ready{.n = 5,
                                     .shownFrame = 4,

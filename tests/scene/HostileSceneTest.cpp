@@ -18,13 +18,15 @@ struct Children {
     std::vector<std::uint64_t> children = {};
 };
 
-/// A block: nodes 1..count are created where asked, then each line sets one node's whole list.
-ChangeList treeOf(std::uint64_t count, const std::vector<Children>& lines) {
+/// A block: nodes 1..count are created where asked, then each line sets one node's whole list; then
+/// some are released.
+ChangeList treeOf(std::uint64_t count, const std::vector<Children>& lines,
+                  const std::vector<std::uint64_t>& released = {}) {
     Writer to;
     to.scalar(ChangeList::version);
     to.scalar(static_cast<std::uint32_t>(count));
     to.scalar(static_cast<std::uint32_t>(lines.size()));
-    to.scalar(0U);
+    to.scalar(static_cast<std::uint32_t>(released.size()));
     for (std::uint64_t i = 1; i <= count; ++i) {
         to.scalar(field::typeIdOf(Node::typeName));
         to.id(idOf(i));
@@ -38,6 +40,7 @@ ChangeList treeOf(std::uint64_t count, const std::vector<Children>& lines) {
         to.scalar(size);
         for (const auto child : line.children) to.id(idOf(child));
     }
+    for (const auto node : released) to.id(idOf(node));
     return {.bytes = to.take()};
 }
 
@@ -65,6 +68,36 @@ TEST(HostileScene, TwoParentsAreRefused) {
 TEST(HostileScene, ASecondParentInALaterListIsRefused) {
     expectRefused({treeOf(3, {{1, {3}}}), treeOf(0, {{2, {3}}})}, "two parents");
     expectRefused({treeOf(4, {{1, {3, 4}}}), treeOf(0, {{2, {4}}})}, "two parents");
+}
+
+// With two of these, a cycle could be made that no way up from a node leads round.
+TEST(HostileScene, AParentThatTakesAChildAndLetsItGoCannotHideAnother) {
+    const auto tree = treeOf(5, {{1, {2}}, {2, {3}}});
+    expectRefused({tree, treeOf(0, {{4, {2}}, {5, {2}}, {4, {}}})}, "two parents");
+    expectRefused({tree, treeOf(0, {{4, {2}}, {4, {}}})}, "two parents");
+    expectRefused({tree, treeOf(0, {{4, {2}}}, {4})}, "two parents");
+}
+
+TEST(HostileScene, ManySmallChangesOfALargeNodeAreAsQuickAsTheyAreSmall) {
+    // With a look at all children for each change this takes minutes.
+    constexpr std::uint64_t count = 30'000;
+    Children all{.parent = 1};
+    for (std::uint64_t i = 2; i <= count; ++i) all.children.push_back(i);
+    const auto types = sceneTypes();
+    field::Aspect aspect{types, 0};
+    ASSERT_TRUE(aspect.apply(treeOf(count, {all})).has_value());
+    Writer to;
+    constexpr std::uint32_t changes = 30'000;
+    for (std::uint32_t i = 0; i < changes; ++i) {
+        to.scalar(ChangeList::version);
+        for (const std::uint32_t n : {0U, 1U, 0U}) to.scalar(n);
+        to.id(idOf(1));
+        to.scalar(field::maskOf<Node>("children"));
+        for (const auto n : {count - 1, std::uint64_t{i % 100}, std::uint64_t{0}})
+            to.scalar(static_cast<std::uint32_t>(n));
+    }
+    ASSERT_TRUE(aspect.apply({.bytes = to.take()}).has_value());
+    EXPECT_EQ(aspect.get(Ref<Node>{idOf(count)})->parent().id, idOf(1));
 }
 
 TEST(HostileScene, TheSameChildTwiceIsRefused) {

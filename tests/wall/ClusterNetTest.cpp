@@ -1,8 +1,5 @@
 // A wall with a key, and one whose servers are started from elsewhere: a script takes ssh's place,
 // and 0.0.0.0, which is this machine and counts as another one, the other machine's.
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 #include <sys/stat.h>
 
 #include <csignal>
@@ -11,18 +8,6 @@
 
 namespace gnomon::wall {
 namespace {
-
-/// A port that was free a moment ago.
-int freePort() {
-    const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    socklen_t length = sizeof address;
-    ::bind(fd, reinterpret_cast<sockaddr*>(&address), sizeof address);
-    ::getsockname(fd, reinterpret_cast<sockaddr*>(&address), &length);
-    ::close(fd);
-    return ntohs(address.sin_port);
-}
 
 class Cluster : public WallTest {
 protected:
@@ -35,16 +20,19 @@ protected:
         ::chmod(ssh.c_str(), 0755);
     }
     /// Both servers on "another" machine.
-    std::string farWall(const std::string& more = {}) const {
+    std::string farWall(const std::string& more = {}) {
         auto lines = text("timeout = 2.0", "host = \"0.0.0.0\"");
+        ports.clear();
         for (const auto& name : names) {
             const auto at = lines.find(name) + name.size() + 2;
-            lines.insert(at, fmt::format("port = {}\n", freePort()));
+            ports.push_back(freePort());
+            lines.insert(at, fmt::format("port = {}\n", ports.back()));
         }
         return folder.write("far.toml",
                             fmt::format("{}[cluster]\nkey = \"cluster.key\"\nserver = \"{}\"\n{}\n",
                                         lines, GNOMON_BIN_DIR "/gnomon-server", more));
     }
+    std::vector<int> ports;
     std::string path() const { return "PATH=" + folder.path("") + ":" + std::getenv("PATH"); }
 };
 
@@ -95,6 +83,49 @@ TEST_F(Cluster, AMachineThatCannotBeReachedIsNamed) {
     ASSERT_EQ(run.errors().size(), 1U);
     EXPECT_NE(run.errors()[0].find("exit code 255: ssh: connect to host"), std::string::npos)
         << run.errors()[0];
+}
+
+/// What ssh starts here has another key than what is said there.
+TEST_F(Cluster, AStartedServerThatHasAnotherKeyEndsTheRunAtOnce) {
+    Program keygen{{"keygen", "--out", folder.path("other.key")}};
+    ASSERT_EQ(keygen.wait(), 0);
+    const auto ssh = folder.write("ssh",
+                                  "#!/bin/sh\nfor last; do :; done\n"
+                                  "sh -c \"$(echo \"$last\" | sed s,/cluster.key,/other.key,)\"\n");
+    ::chmod(ssh.c_str(), 0755);
+    Program run{{"run", farWall("launch = \"ssh\""), "--backend", "none"}, {path()}};
+    EXPECT_EQ(run.wait(), 1) << run.output();
+    ASSERT_EQ(run.errors().size(), 1U) << run.output();
+    EXPECT_NE(run.errors()[0].find("does not accept the cluster key"), std::string::npos)
+        << run.errors()[0];
+    EXPECT_NE(run.errors()[0].find("(0.0.0.0:"), std::string::npos) << run.errors()[0];
+    EXPECT_TRUE(noneLeft(names));
+}
+
+TEST_F(Cluster, AServerThatRunsWithAnotherKeyIsNamedAndMayBePutRight) {
+    Program keygen{{"keygen", "--out", folder.path("other.key")}};
+    ASSERT_EQ(keygen.wait(), 0);
+    const auto wall = farWall();
+    const auto server = [&](std::size_t i, const std::string& key) {
+        const auto address = "0.0.0.0:" + std::to_string(ports[i]);
+        return std::make_unique<Program>(
+            std::vector<std::string>{"--name", names[i], "--listen", address, "--backend", "none",
+                                     "--key", folder.path(key)},
+            std::vector<std::string>{}, "gnomon-server");
+    };
+    const auto left = server(0, "cluster.key");
+    auto right = server(1, "other.key");
+    ASSERT_TRUE(left->says("port") && right->says("port"));
+    Program run{{"run", wall, "--backend", "none"}};
+    ASSERT_TRUE(run.says("warning: " + names[1])) << run.output();
+    EXPECT_NE(run.output().find("does not accept the cluster key"), std::string::npos);
+    right->signal(SIGTERM);
+    EXPECT_EQ(right->wait(), 0);
+    right = server(1, "cluster.key");
+    EXPECT_TRUE(run.says("fps")) << run.output();
+    run.signal(SIGINT);
+    EXPECT_EQ(run.wait(), 0) << testing::PrintToString(run.errors());
+    for (const auto* program : {left.get(), right.get()}) program->signal(SIGTERM);
 }
 
 TEST_F(Cluster, CheckSaysWhichServersAreThere) {

@@ -1,6 +1,8 @@
 #include "Program.h"
 
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,7 +17,8 @@ namespace {
 
 Child startGnomon(std::vector<std::string> arguments, std::vector<std::string> environment,
                   const std::string& name) {
-    arguments.insert(arguments.begin(), GNOMON_BIN_DIR "/" + name);
+    const bool isPath = name.find('/') != std::string::npos;
+    arguments.insert(arguments.begin(), isPath ? name : GNOMON_BIN_DIR "/" + name);
     return orThrow(
         Child::start({.arguments = std::move(arguments), .environment = std::move(environment)}));
 }
@@ -57,12 +60,13 @@ void Program::read(int fd, std::vector<std::string>& lines) {
     changed_.notify_all();
 }
 
-bool Program::says(const std::string& part) {
+bool Program::isSaid(const std::string& part, const std::vector<std::string>& lines,
+                     std::size_t& seen) {
     const auto deadline = std::chrono::steady_clock::now() + patience;
     std::unique_lock lock{mutex_};
     for (;;) {
-        while (seen_ < output_.size())
-            if (output_[seen_++].find(part) != std::string::npos) return true;
+        while (seen < lines.size())
+            if (lines[seen++].find(part) != std::string::npos) return true;
         if (open_ < 2) return false;
         if (changed_.wait_until(lock, deadline) == std::cv_status::timeout) return false;
     }
@@ -88,22 +92,71 @@ std::vector<std::string> Program::errors() {
     return errors_;
 }
 
-std::vector<pid_t> serversNamed(const std::string& name) {
+namespace {
+
+std::string contentOf(const std::filesystem::path& file) {
+    std::ifstream in{file, std::ios::binary};
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+/// All processes whose command line, each word of which ends with a zero byte, is like that.
+template <class Is>
+std::vector<pid_t> processesLike(Is&& is) {
     std::vector<pid_t> found;
     std::error_code ec;
     for (const auto& entry : std::filesystem::directory_iterator{"/proc", ec}) {
         const auto folder = entry.path().filename().string();
         if (folder.find_first_not_of("0123456789") != std::string::npos) continue;
-        std::ifstream in{entry.path() / "cmdline", std::ios::binary};
-        std::ostringstream text;
-        text << in.rdbuf();
-        const std::string words = text.str();  // each ends with a zero byte
-        const std::string wanted = std::string{"--name"} + '\0' + name + '\0';
-        if (words.find("gnomon-server") != std::string::npos &&
-            words.find(wanted) != std::string::npos)
-            found.push_back(std::stoi(folder));
+        if (is(contentOf(entry.path() / "cmdline"))) found.push_back(std::stoi(folder));
     }
     return found;
+}
+
+}  // namespace
+
+std::vector<pid_t> serversNamed(const std::string& name) {
+    const std::string wanted = std::string{"--name"} + '\0' + name + '\0';
+    return processesLike([&](const std::string& words) {
+        return words.find("gnomon-server") != std::string::npos &&
+               words.find(wanted) != std::string::npos;
+    });
+}
+
+std::vector<pid_t> processesWith(const std::string& part) {
+    return processesLike(
+        [&](const std::string& words) { return words.find(part) != std::string::npos; });
+}
+
+std::string programOf(pid_t process) {
+    std::error_code ec;
+    return std::filesystem::read_symlink("/proc/" + std::to_string(process) + "/exe", ec)
+        .filename()
+        .string();
+}
+
+std::vector<pid_t> childrenOf(pid_t process) {
+    std::vector<pid_t> children;
+    std::error_code ec;
+    // Each of its threads has those that it started.
+    for (const auto& thread :
+         std::filesystem::directory_iterator{"/proc/" + std::to_string(process) + "/task", ec}) {
+        std::istringstream numbers{contentOf(thread.path() / "children")};
+        for (pid_t child = 0; numbers >> child;) children.push_back(child);
+    }
+    return children;
+}
+
+int freePort() {
+    const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    socklen_t length = sizeof address;
+    ::bind(fd, reinterpret_cast<sockaddr*>(&address), sizeof address);
+    ::getsockname(fd, reinterpret_cast<sockaddr*>(&address), &length);
+    ::close(fd);
+    return ntohs(address.sin_port);
 }
 
 bool noneLeft(const std::vector<std::string>& names) {

@@ -18,9 +18,10 @@ using namespace std::chrono_literals;
 /// Longer than anything here takes on a busy machine; nothing waits for it that goes well.
 inline constexpr auto patience = 60s;
 
-/// `gnomon`, or another of our programs, with arguments: a process whose lines we read.
+/// `gnomon`, or another program, with arguments: a process whose lines we read.
 class Program {
 public:
+    /// @param name  one of ours, or a path
     explicit Program(std::vector<std::string> arguments, std::vector<std::string> environment = {},
                      const std::string& name = "gnomon");
     /// Ends it, if it has not ended.
@@ -30,7 +31,9 @@ public:
 
     /// Waits for a line of standard output that contains @p part; false when the program ended
     /// without one. Each line is found once.
-    bool says(const std::string& part);
+    bool says(const std::string& part) { return isSaid(part, output_, seen_); }
+    /// The same for standard error.
+    bool complains(const std::string& part) { return isSaid(part, errors_, seenErrors_); }
     void signal(int number) const { child_.signal(number); }
     /// Waits for its end: the exit code, or 128 + the signal that ended it.
     int wait();
@@ -41,6 +44,7 @@ public:
 
 private:
     void read(int fd, std::vector<std::string>& lines);
+    bool isSaid(const std::string& part, const std::vector<std::string>& lines, std::size_t& seen);
 
     Child child_;
     std::mutex mutex_;
@@ -48,14 +52,23 @@ private:
     std::vector<std::string> output_;  // guarded
     std::vector<std::string> errors_;  // guarded
     std::size_t seen_ = 0;             // lines of output_ that says() has passed
+    std::size_t seenErrors_ = 0;       // and of errors_
     int open_ = 2;                     // pipes; guarded
     std::optional<int> status_;
     std::thread outputReader_;
     std::thread errorReader_;
 };
 
-/// Processes of gnomon-server with this name, anywhere on the machine.
+/// Processes of gnomon-server with this name, anywhere on the machine, and their starters, where
+/// those were given its words one by one.
 std::vector<pid_t> serversNamed(const std::string& name);
+/// Everything on this machine that has this in its command line.
+std::vector<pid_t> processesWith(const std::string& part);
+/// The program's name, without its folder; empty where there is no such process.
+std::string programOf(pid_t process);
+std::vector<pid_t> childrenOf(pid_t process);
+/// A port that was free a moment ago.
+int freePort();
 /// Waits until none of them is left; false at the deadline.
 bool noneLeft(const std::vector<std::string>& names);
 

@@ -75,15 +75,15 @@ Result<void> Aspect::applyChanges(Reader& from, std::uint32_t count,
         if ((mask & ~container.type_->allFields()) != 0)
             return refused(from,
                            where() + "mask " + std::to_string(mask) + " names fields it has not");
-        container.changing(mask);
         container.read(from, mask);
+        const auto sound = from.failed() ? Result<void>{} : container.changed(mask);
         // Settled also where it failed, so that the counts stay true to the fields.
         settle(container);
         const auto counted = countUses();
         if (from.failed()) return refused(from, where() + from.why());
         if (!counted) return refused(from, where() + counted.error().what);
+        if (!sound) return refused(from, sound.error().what);
         container.clearRanges();
-        container.changed(mask);
         touched.push_back(&container);
         if (applied != nullptr) applied->changed.push_back({.id = id, .mask = mask});
     }
@@ -101,7 +101,8 @@ Result<void> Aspect::applyReleases(Reader& from, std::uint32_t count,
             return refused(from, numberOf(id) + " does not exist");
         if (!own && space_ != 0 && id.space() == space_)
             return refused(from, numberOf(id) + " is not the sender's to release");
-        drop(*found, nullptr);
+        if (auto dropped = drop(*found, nullptr); !dropped)
+            return refused(from, dropped.error().what);
         going.push_back(found);
     }
     return {};
@@ -122,7 +123,7 @@ Result<void> Aspect::applyBlock(Reader& from, Applied* applied, bool own) {
     if (auto done = applyChanges(from, changes, touched, applied, own); !done) return done;
     // Those released together may refer to each other in any way, so all let go before any goes.
     if (auto done = applyReleases(from, releases, going, own); !done) return done;
-    for (const FieldContainer* container : touched) {
+    for (FieldContainer* container : touched) {
         if (container->dropped_) continue;
         auto sound = container->validate();
         if (!sound) return refused(from, sound.error().what);

@@ -135,7 +135,7 @@ Result<void> Aspect::destroy(const FieldContainer& container) {
                                     std::to_string(container.references_) +
                                     " field(s) still refer to it");
     auto& gone = const_cast<FieldContainer&>(container);
-    drop(gone, nullptr);
+    orThrow(drop(gone, nullptr));
     erase(gone);
     return {};
 }
@@ -148,20 +148,21 @@ Result<void> Aspect::destroyTree(const FieldContainer& container) {
         FieldContainer* gone = containers_.find(open.back());
         open.pop_back();
         if (gone == nullptr || gone->references_ > 0 || gone->id_.space() != space_) continue;
-        drop(*gone, &open);
+        orThrow(drop(*gone, &open));
         erase(*gone);
     }
     return {};
 }
 
-void Aspect::drop(FieldContainer& container, std::vector<Id>* orphans) {
-    container.changing(container.type_->allFields());
+Result<void> Aspect::drop(FieldContainer& container, std::vector<Id>* orphans) {
+    if (auto sound = container.dropping(); !sound) return sound;
     container.dropUses(log_);
     if (orphans != nullptr)
         orphans->insert(orphans->end(), log_.droppedRefs.begin(), log_.droppedRefs.end());
     const auto counted = countUses();
     GNOMON_EXPECTS(counted.has_value(), "dropping references cannot fail");
     container.dropped_ = true;
+    return {};
 }
 
 void Aspect::erase(FieldContainer& container) {

@@ -1,21 +1,23 @@
 #include "Opaque.h"
 
 #include <algorithm>
+#include <array>
 
 namespace gnomon::field {
+
+namespace {
+
+/// As many as the longest layout takes: 64 scalars of 8 bytes.
+constexpr std::array<std::byte, std::size_t{64} * 8> zeros{};
+
+}  // namespace
 
 std::unique_ptr<FieldContainer> makeOpaque(const TypeInfo& info) {
     return std::make_unique<Opaque>(info);
 }
 
-Opaque::Opaque(const TypeInfo& info) : info_{info}, values_(info.fields.size()) {
-    for (std::size_t i = 0; i < values_.size(); ++i) {
-        if (info.fields[i].multi) continue;
-        // A string's empty length and every scalar's zero are zero bytes.
-        values_[i].push_back(
-            {.bytes = std::vector<std::byte>(minimumBytes(info.fields[i].layout))});
-    }
-}
+/// Values that nobody wrote take no room: a schema may name many, and a creation is 12 bytes.
+Opaque::Opaque(const TypeInfo& info) : info_{info}, values_(info.fields.size()) {}
 
 Opaque::Value Opaque::readValue(Reader& from, const FieldInfo& field) const {
     Value value;
@@ -58,6 +60,9 @@ void Opaque::write(Writer& to, Mask mask, bool /*whole*/) const {
             to.scalar(size);
             to.scalar(std::uint32_t{0});
             to.scalar(size);
+        } else if (values_[i].empty()) {
+            // A string's empty length, every scalar's zero, and no reference: all zero bytes.
+            to.bytes(std::span{zeros}.first(minimumBytes(info_.fields[i].layout)));
         }
         for (const Value& value : values_[i]) writeValue(to, info_.fields[i], value);
     }
@@ -84,6 +89,8 @@ void Opaque::read(Reader& from, Mask mask) {
             }
             for (std::size_t k = size; k < values.size(); ++k) use({}, values[k]);
             values.resize(size);
+        } else {
+            values.resize(1);
         }
         for (std::size_t k = first; k < first + count && !from.failed(); ++k) {
             Value value = readValue(from, field);

@@ -31,7 +31,7 @@ private:
     void use(const Value& now, const Value& old);
 
     const TypeInfo& info_;
-    std::vector<std::vector<Value>> values_;  // a single field has exactly one
+    std::vector<std::vector<Value>> values_;  // a single field has one at most; none: zero
     UseLog uses_;
     Mask touched_ = 0;
 };

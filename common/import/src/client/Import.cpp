@@ -56,7 +56,8 @@ Result<field::ChangeList> importScene(const std::filesystem::path& file,
     if (!list && list.error().code != Errc::disconnected)
         return fail(list.error().code, name + ": " + list.error().what);
     // It has said what it had to say; its end tells how that is to be taken.
-    if (const auto drained = receiver.drain(); !drained) return tooSlow();
+    const auto drained = receiver.drain();
+    if (!drained) return tooSlow();
     const int status = child->wait(deadline);
 
     if (WIFSIGNALED(status)) {
@@ -78,6 +79,8 @@ Result<field::ChangeList> importScene(const std::filesystem::path& file,
         return fail(Errc::file, complaint);
     }
     if (!list) return fail(Errc::protocol, name + ": " + list.error().what);
+    if (*drained > 0)
+        return fail(Errc::protocol, name + ": the importer's output goes on after its end");
     return list;
 }
 

@@ -21,11 +21,8 @@ constexpr std::uint64_t firstStep = std::uint64_t{1} << 20U;
 
 }  // namespace
 
-Receiver::Receiver(const Child& child, Clock::time_point deadline, Progress progress)
-    : out_{child.output()},
-      err_{child.errors()},
-      deadline_{deadline},
-      progress_{std::move(progress)} {}
+Receiver::Receiver(int output, int errors, Clock::time_point deadline, Progress progress)
+    : out_{output}, err_{errors}, deadline_{deadline}, progress_{std::move(progress)} {}
 
 void Receiver::takeErrors() {
     std::array<char, 4096> buffer{};
@@ -137,8 +134,9 @@ Result<field::ChangeList> Receiver::receive(std::uint64_t maxBytes) {
     return list;
 }
 
-Result<void> Receiver::drain() {
+Result<std::uint64_t> Receiver::drain() {
     std::array<std::byte, 4096> buffer{};
+    std::uint64_t thrownAway = 0;
     for (bool open = true; open || err_ >= 0;) {
         if (!open) {  // a closed pipe would wake poll() again and again
             const auto left =
@@ -154,8 +152,9 @@ Result<void> Receiver::drain() {
         if (!*readable) continue;
         const auto count = ::read(out_, buffer.data(), buffer.size());
         open = count > 0 || (count < 0 && errno == EINTR);
+        if (count > 0) thrownAway += static_cast<std::uint64_t>(count);
     }
-    return {};
+    return thrownAway;
 }
 
 std::string Receiver::complaint() const {

@@ -19,14 +19,18 @@ public:
     using Progress = std::function<void(double, const std::string&)>;
 
     /// @p child outlives the receiver.
-    Receiver(const Child& child, Clock::time_point deadline, Progress progress);
+    Receiver(const Child& child, Clock::time_point deadline, Progress progress)
+        : Receiver{child.output(), child.errors(), deadline, std::move(progress)} {}
+    /// Its two pipes, which stay the caller's.
+    Receiver(int output, int errors, Clock::time_point deadline, Progress progress);
 
     /// The whole stream. @p maxBytes: the most that its parts may hold together. Errors:
     /// Errc::timeout at the deadline; Errc::disconnected where it ends early; Errc::protocol;
     /// Errc::limit.
     Result<field::ChangeList> receive(std::uint64_t maxBytes);
-    /// Reads on, and throws away, until both pipes are closed or the deadline has passed.
-    Result<void> drain();
+    /// Reads on, and throws away, until both pipes are closed or the deadline has passed. How many
+    /// bytes of standard output that were.
+    Result<std::uint64_t> drain();
     /// The first line on standard error that is no progress; cut to a sane length.
     std::string complaint() const;
 

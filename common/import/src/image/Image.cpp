@@ -9,6 +9,8 @@
 #include <limits>
 #include <memory>
 
+#include "image/Jpeg.h"
+#include "image/Png.h"
 #include "image/Stb.h"
 
 namespace gnomon::importer {
@@ -43,29 +45,20 @@ void* stbResize(void* old, std::size_t bytes) noexcept {
 }
 void stbFree(void* memory) noexcept { std::free(memory); }
 
-Result<ImageHeader> imageHeader(std::span<const std::byte> file) {
-    if (file.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-        return fail(Errc::limit, "the image file has more than 2 GiB");
+namespace {
+
+/// BMP and TGA.
+Result<ImageHeader> otherHeader(std::span<const std::byte> file) {
     ImageHeader header;
     int channels = 0;
     if (stbi_info_from_memory(data(file), static_cast<int>(file.size()), &header.width,
                               &header.height, &channels) == 0)
         return fail(Errc::file, fmt::format("no PNG, JPEG, BMP or TGA image that can be read ({})",
                                             stbi_failure_reason()));
-    if (header.width <= 0 || header.height <= 0)
-        return fail(Errc::file,
-                    fmt::format("the image is {} x {} pixels", header.width, header.height));
-    if (header.width > maxImageSide || header.height > maxImageSide ||
-        header.decodedBytes() > maxImageBytes)
-        return fail(Errc::limit,
-                    fmt::format("the image is {} x {} pixels; the limits are {} a side and {} MiB",
-                                header.width, header.height, maxImageSide, maxImageBytes >> 20U));
     return header;
 }
 
-Result<Image> decodedImage(std::span<const std::byte> file) {
-    const auto header = imageHeader(file);
-    if (!header) return tl::unexpected{header.error()};
+Result<Image> decodedOther(std::span<const std::byte> file) {
     Image image;
     int channels = 0;
     const std::unique_ptr<stbi_uc, StbPixels> pixels{
@@ -79,6 +72,33 @@ Result<Image> decodedImage(std::span<const std::byte> file) {
     image.pixels.resize(bytes);
     std::memcpy(image.pixels.data(), pixels.get(), bytes);
     return image;
+}
+
+}  // namespace
+
+Result<ImageHeader> imageHeader(std::span<const std::byte> file) {
+    if (file.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+        return fail(Errc::limit, "the image file has more than 2 GiB");
+    auto header = isPng(file)    ? pngHeader(file)
+                  : isJpeg(file) ? jpegHeader(file)
+                                 : otherHeader(file);
+    if (!header) return header;
+    if (header->width <= 0 || header->height <= 0)
+        return fail(Errc::file,
+                    fmt::format("the image is {} x {} pixels", header->width, header->height));
+    if (header->width > maxImageSide || header->height > maxImageSide ||
+        header->decodedBytes() > maxImageBytes)
+        return fail(Errc::limit,
+                    fmt::format("the image is {} x {} pixels; the limits are {} a side and {} MiB",
+                                header->width, header->height, maxImageSide, maxImageBytes >> 20U));
+    return header;
+}
+
+Result<Image> decodedImage(std::span<const std::byte> file) {
+    const auto header = imageHeader(file);
+    if (!header) return tl::unexpected{header.error()};
+    if (isPng(file)) return decodedPng(file);
+    return isJpeg(file) ? decodedJpeg(file) : decodedOther(file);
 }
 
 ImageMean meanOf(const Image& image) {

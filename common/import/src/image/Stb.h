@@ -14,8 +14,6 @@ void stbFree(void* memory) noexcept;
 #define STBI_REALLOC(old, size) ::gnomon::importer::stbResize(old, size)
 #define STBI_FREE(memory) ::gnomon::importer::stbFree(memory)
 #define STBI_MAX_DIMENSIONS 16384
-#define STBI_ONLY_PNG
-#define STBI_ONLY_JPEG
 #define STBI_ONLY_BMP
 #define STBI_ONLY_TGA
 #define STBI_NO_STDIO

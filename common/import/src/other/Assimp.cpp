@@ -195,6 +195,8 @@ void AssimpReader::read(const math::Affine& worldFromRoot) {
 
 void readWithAssimp(const std::filesystem::path& file, Folder& folder, SceneBuilder& to) {
     Assimp::Importer importer;
+    // Assimp's own dump: nobody's models are in it, and its reader believes every number.
+    importer.UnregisterLoader(importer.GetImporter("assbin"));
     importer.SetIOHandler(std::make_unique<AssimpFiles>(file, folder).release());  // now its own
     // Cameras have no use here; components that are removed need not be checked.
     importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,

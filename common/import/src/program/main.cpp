@@ -11,6 +11,7 @@
 
 #include "build/SceneBuilder.h"
 #include "format/Format.h"
+#include "program/Confine.h"
 #include "program/Limits.h"
 #include "program/Options.h"
 #include "program/ReadModel.h"
@@ -57,6 +58,7 @@ int run(const ProgramOptions& options) {
         field::TypeRegistry types;
         scene::addTypes(types);
         Report report = makeReport(options.progress);
+        confineProcess();
         SceneBuilder scene{types, report};
         readModel(options.file, scene);
         const auto list = scene.finish(options.file.filename().string());

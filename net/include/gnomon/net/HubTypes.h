@@ -89,7 +89,10 @@ enum class ServerState : std::uint8_t {
 struct ServerStatus {
     ServerAddress address = {};
     ServerState state = ServerState::waiting;
-    std::string text = {};         ///< the state, for people: "connection refused", "compiling"
+    std::string text = {};  ///< the state, for people: "connection refused", "compiling"
+    /// The two do not fit: another key, version or type. It is tried again, but will not do before
+    /// one of them was started anew.
+    bool unfit = false;
     std::string description = {};  ///< as the server said in its Hello
     std::uint64_t lastReady = 0;
     RenderStats stats = {};  ///< of lastReady

@@ -30,15 +30,24 @@ struct ServerHello {
     }
 };
 
-/// Why the server closes the connection after this.
+/// What it takes until the server would not refuse any more.
+enum class Cure : std::uint8_t {
+    time,     ///< nothing but that: it serves another client, say
+    restart,  ///< another program, key or type on either side
+    last = restart
+};
+
+/// Why the server closes the connection after this. The same in every version.
 struct Refused {
     static constexpr MessageType type = MessageType::refused;
     static constexpr std::string_view name = "Refused";
     std::string why = {};
+    Cure cure = Cure::time;
 
     template <class Self, class Io>
     static void fields(Self& self, Io& io) {
         io(self.why);
+        io(self.cure);
     }
 };
 

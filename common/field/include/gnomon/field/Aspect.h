@@ -132,7 +132,8 @@ private:
                               std::vector<FieldContainer*>& touched, Applied* applied, bool own);
     Result<void> applyReleases(Reader& from, std::uint32_t count,
                                std::vector<FieldContainer*>& going, bool own);
-    void drop(FieldContainer& container, std::vector<Id>* orphans);
+    /// Fails only where change lists made it unsound.
+    Result<void> drop(FieldContainer& container, std::vector<Id>* orphans);
     void erase(FieldContainer& container);
     void listCreated(FieldContainer& container);
 

@@ -180,6 +180,9 @@ public:
         }
         mark(first, first + count);
     }
+    /// Counted values that came and went since flushUses(), also those that did both.
+    std::span<const T> added() const noexcept { return uses_.added; }
+    std::span<const T> dropped() const noexcept { return uses_.dropped; }
     void clearRange() noexcept {
         first_ = noRange;
         last_ = 0;

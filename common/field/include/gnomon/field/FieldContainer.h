@@ -42,12 +42,14 @@ protected:
     virtual void clearRanges() noexcept = 0;
     /// Logs every reference and payload as dropped.
     virtual void dropUses(UseLog& log) = 0;
-    /// Called before a change list overwrites these fields.
-    virtual void changing(Mask /*mask*/) {}
-    /// Called after a change list overwrote these fields.
-    virtual void changed(Mask /*mask*/) {}
-    /// Called after a whole change list was applied: is what it made of this container sound?
-    virtual Result<void> validate() const { return {}; }
+    /// Called after a change list overwrote these fields; multi fields tell which references came
+    /// and went. Costs no more than these: a list may change a container often.
+    virtual Result<void> changed(Mask /*mask*/) { return {}; }
+    /// Called before its references are dropped, for it is about to be destroyed.
+    virtual Result<void> dropping() { return {}; }
+    /// Called after a block of a change list was applied: is what it made of this container sound?
+    /// Costs no more than what changed since the last call.
+    virtual Result<void> validate() { return {}; }
 
 private:
     Id id_ = {};

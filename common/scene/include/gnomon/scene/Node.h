@@ -47,21 +47,22 @@ public:
     }
 
 protected:
-    void changing(field::Mask mask) override;
-    void changed(field::Mask mask) override;
-    Result<void> validate() const override;
+    Result<void> changed(field::Mask mask) override;
+    Result<void> dropping() override;
+    Result<void> validate() override;
 
 private:
     std::string label() const;
+    Node* child(Ref<Node> ref) const;
+    Result<void> letGo(std::span<const Ref<Node>> children);
     /// Where the way up from this node leads to @p node; depth counts the steps.
     bool isBelow(const Node& node, int& depth) const;
 
     MultiField<Ref<Node>> children_;
     Ref<Node> parent_ = {};
-    // While a change list is applied: the parent before, where that one's list was not changed
-    // (yet).
-    Ref<Node> former_ = {};
-    std::uint32_t place_ = 0;  // among its parent's children, as the last change list had it
+    std::uint32_t listed_ = 0;  // how many children fields name it; more than 1 within a block only
+    std::vector<Ref<Node>> fresh_ = {};  // children that came since the last validate()
+    bool strange_ = false;               // one of them is no node
 };
 
 /// Groups its children and does nothing else.
