@@ -15,7 +15,7 @@ namespace {
 
 Child startGnomon(std::vector<std::string> arguments, std::vector<std::string> environment,
                   const std::string& name) {
-    arguments.insert(arguments.begin(), GNOMON_BIN_DIR "/" + name);
+    arguments.insert(arguments.begin(), name.starts_with('/') ? name : GNOMON_BIN_DIR "/" + name);
     return orThrow(
         Child::start({.arguments = std::move(arguments), .environment = std::move(environment)}));
 }

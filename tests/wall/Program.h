@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 /// Longer than anything here takes on a busy machine; nothing waits for it that goes well.
 inline constexpr auto patience = 60s;
 
-/// `gnomon`, or another of our programs, with arguments: a process whose lines we read.
+/// `gnomon`, another of our programs, or one with its full path: a process whose lines we read.
 class Program {
 public:
     explicit Program(std::vector<std::string> arguments, std::vector<std::string> environment = {},
