@@ -18,6 +18,7 @@ void addRun(CLI::App& program, Action& action,
             std::function<Choice(const ShotOptions&)> choose = {});
 void addCheck(CLI::App& program, Action& action);
 void addKeygen(CLI::App& program, Action& action);
+void addPlot(CLI::App& program, Action& action);
 void addBench(CLI::App& program, Action& action);
 void addShot(CLI::App& program, Action& action);
 void addTruth(CLI::App& program, Action& action);

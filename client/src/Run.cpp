@@ -7,11 +7,13 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "ClusterAccess.h"
 #include "Console.h"
+#include "FrameTrace.h"
 #include "Interrupt.h"
 #include "RunOptions.h"
 #include "Statistics.h"
@@ -96,6 +98,7 @@ public:
         : options_{options},
           console_{console},
           path_{loadPath(options)},
+          trace_{openTrace()},
           app_{loadWall(options, console), applicationOptions(options, console)} {}
 
     int run() {
@@ -104,6 +107,7 @@ public:
         if (!start(interrupt)) return 0;
         const net::FrameResult last = frames(interrupt);
         console_.line(statistics_.summary());
+        if (trace_) trace_->finish();
         if (!options_.out.empty()) writePictures(last);
         if (!options_.json.empty()) writeJson();
         app_.shutdown();
@@ -114,6 +118,12 @@ private:
     static std::optional<CameraPath> loadPath(const RunOptions& options) {
         if (options.path.empty()) return {};
         return orThrow(CameraPath::load(options.path));
+    }
+
+    std::unique_ptr<FrameTrace> openTrace() const {
+        if (options_.trace.empty()) return {};
+        return std::make_unique<FrameTrace>(
+            options_.trace, [&](const std::string& why) { console_.log(LogLevel::warning, why); });
     }
 
     void loadScene() {
@@ -185,7 +195,9 @@ private:
             if (path_) app_.setView(path_->at(path_->start() + time));
             result = app_.frame(time, last && !options_.out.empty());
             const auto now = Clock::now();
-            statistics_.add(result, app_.status(), now);
+            const auto servers = app_.status();
+            statistics_.add(result, servers, now);
+            if (trace_) trace_->add(result, servers, now);
             tell(result, i, now);
             if (stop) break;
         }
@@ -193,11 +205,13 @@ private:
     }
 
     void tell(const net::FrameResult& result, std::uint64_t i, Clock::time_point now) {
+        // The number that servers and their messages know the frame by.
+        const std::uint64_t n = result.shown;
         for (const auto& name : result.droppedNow)
-            console_.log(LogLevel::warning, fmt::format("frame {} goes on without {}", i, name));
+            console_.log(LogLevel::warning, fmt::format("frame {} goes on without {}", n, name));
         // All of them joined to make the first frame.
         for (const auto& name : i == 0 ? std::vector<std::string>{} : result.joinedNow)
-            console_.line(fmt::format("frame {}: {} takes part", i, name));
+            console_.line(fmt::format("frame {}: {} takes part", n, name));
         if (const auto line = statistics_.line(now)) console_.line(*line);
         if (!options_.frames) return;
         const double share = static_cast<double>(i + 1) / static_cast<double>(*options_.frames);
@@ -237,7 +251,9 @@ private:
 
     const RunOptions& options_;
     Console& console_;
-    const std::optional<CameraPath> path_;  // before the servers: a broken one starts nothing
+    // Before the servers: a broken one starts nothing.
+    const std::optional<CameraPath> path_;
+    const std::unique_ptr<FrameTrace> trace_;
     Application app_;
     Statistics statistics_ = {};
 };
@@ -246,6 +262,9 @@ private:
 
 int run(const RunOptions& options) {
     Console console;
+    // A reader that goes away ends nothing: the wall runs for those who look at it.
+    ::signal(SIGPIPE, SIG_IGN);
+    console.detach(options.log);
     if (options.dryRun)
         return dryRun(loadWall(options, console), applicationOptions(options, console), console);
     return Runner{options, console}.run();

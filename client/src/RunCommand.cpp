@@ -45,6 +45,12 @@ void addRun(CLI::App& program, Action& action, std::function<Choice(const ShotOp
     command.add_option("--out", options->out, "The wall's last picture, PNG")
         ->type_name("WALL.png");
     command.add_option("--json", options->json, "What was measured")->type_name("FILE");
+    command
+        .add_option("--trace", options->trace,
+                    "Each frame: its time, how many servers showed it, who was dropped or came")
+        ->type_name("FILE.csv");
+    command.add_option("--log", options->log, "Keeps all that is said, added at the file's end")
+        ->type_name("FILE");
     command.add_flag("--dry-run", options->dryRun, "Say what would be started, and end");
     command.callback([options, &action] {
         options->view.validate();

@@ -25,6 +25,8 @@ struct RunOptions {
     std::optional<config::Cells> tile = {};
     std::filesystem::path out = {};
     std::filesystem::path json = {};
+    std::filesystem::path trace = {};  ///< CSV, a line for each frame
+    std::filesystem::path log = {};    ///< what is said on standard output, kept
     bool dryRun = false;
     /// What technique `auto` means, measured on what one server shows; empty: it is not measured.
     std::function<Choice(const ShotOptions&)> choose = {};

@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
     gnomon::client::addCheck(program, action);
     gnomon::client::addKeygen(program, action);
     gnomon::client::addBench(program, action);
+    gnomon::client::addPlot(program, action);
     gnomon::client::addShot(program, action);
     gnomon::client::addTruth(program, action);
     gnomon::client::addCompare(program, action);

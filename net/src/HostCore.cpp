@@ -13,6 +13,9 @@ constexpr std::size_t maxBacklog = maxChangeBytes;
 constexpr std::size_t maxWaitingImages = std::size_t{2} << 30U;
 /// How long a connection that was sent away may take to read why.
 constexpr Milliseconds sendFarewell{1000};
+/// A client pings several times a second. One that was silent for so long keeps nobody out: a
+/// machine without power, or behind a cut cable, sends no end of stream.
+constexpr Milliseconds givesWayAfter{2000};
 
 template <class M, class Fn>
 Result<void> with(std::span<const std::byte> body, Fn&& fn) {
@@ -147,10 +150,15 @@ Result<void> HostCore::greeted(Channel& from, std::span<const std::byte> body) {
         session_->images.attach(guest);
     } else if (hello->role == wire::Role::relay) {
         joinRelay(guest, hello->token);
-    } else if (session_) {
+    } else if (session_ && !givesWay()) {
         refuse(guest, fmt::format("server \"{}\" serves another client ({})", options_.name,
                                   session_->control->remote()));
     } else {
+        if (session_)
+            endSession({.code = Errc::timeout,
+                        .what = fmt::format("it was silent for {} ms, and {} came",
+                                            silence().count(), guest->remote())},
+                       false);
         beginSession(guest, *std::move(hello));
     }
     return {};
@@ -169,6 +177,18 @@ void HostCore::joinRelay(std::shared_ptr<Channel> channel, std::uint64_t token) 
     channel->setRoute(Route::toServerRelay);
     channel->expectBulk();
     session_->relay = std::move(channel);
+}
+
+Milliseconds HostCore::silence() const {
+    const auto heard = std::max(session_->control->lastHeard(),
+                                session_->bulk ? session_->bulk->lastHeard() : TimePoint{});
+    return std::chrono::duration_cast<Milliseconds>(SteadyClock::now() - heard);
+}
+
+/// Whether the client, silent as it is, is to be taken for gone now that there is another one.
+bool HostCore::givesWay() const {
+    // While we do not read, silence is our own doing; and some servers end with their client.
+    return !inbox_.throttled() && !options_.exitWithClient && silence() >= givesWayAfter;
 }
 
 void HostCore::beginSession(std::shared_ptr<Channel> channel, wire::ClientHello hello) {
@@ -309,11 +329,10 @@ void HostCore::throttle() {
 
 /// Ends a session whose client fell silent: a cut cable sends no end of stream.
 void HostCore::watch() {
-    const auto heard = std::max(session_->control->lastHeard(),
-                                session_->bulk ? session_->bulk->lastHeard() : TimePoint{});
     // While we do not read, silence is our own doing.
-    const auto due = (inbox_.throttled() ? SteadyClock::now() : heard) + options_.silentTimeout;
-    if (SteadyClock::now() < due) return silentTimer_.at(due, [this] { watch(); });
+    const auto left = options_.silentTimeout - (inbox_.throttled() ? Milliseconds{0} : silence());
+    const auto due = SteadyClock::now() + left;
+    if (left > Milliseconds{0}) return silentTimer_.at(due, [this] { watch(); });
     endSession(
         {.code = Errc::timeout,
          .what = fmt::format("the client was silent for {} ms", options_.silentTimeout.count())},

@@ -74,6 +74,8 @@ private:
     Result<void> bulk(MessageType type, std::span<const std::byte> body);
     Result<void> relayed(std::span<const std::byte> body);
     void answer(const wire::Ping& ping);
+    Milliseconds silence() const;
+    bool givesWay() const;
     void watch();
     void endSession(const Error& why, bool tellClient);
     void refuse(std::shared_ptr<Channel> channel, const std::string& why,

@@ -194,8 +194,9 @@ void HubCore::dropLate(Peer& peer) {
     const auto now = SteadyClock::now();
     const auto& first = outstanding_->firstReady;
     const auto& pong = peer.lastPong();
+    // What a server said before it fell silent is no excuse.
     std::string at = "it answers nothing";
-    if (now - peer.lastHeard() <= options_.timeout + 2 * options_.pingInterval && pong) {
+    if (now - peer.lastHeard() < options_.timeout && pong) {
         at = pong->current == 0
                  ? fmt::format("it is idle, last finished frame {}", pong->lastFinished)
                  : fmt::format("it was at frame {} for {} ms", pong->current, pong->busyMs);

@@ -54,6 +54,18 @@ TEST(Process, ReadsWhatWeWriteToIt) {
     EXPECT_EQ(shell("true")->input(), -1);
 }
 
+// A connection that we close would stay open where a child had it, too.
+TEST(Process, NoneOfOurFilesIsOpenInIt) {
+    const int ours = ::socket(AF_UNIX, SOCK_STREAM, 0);  // not closed at exec by itself
+    ASSERT_GE(ours, 0);
+    auto child = shell("for fd in /proc/self/fd/*; do [ -S $fd ] && echo $fd; done; true");
+    ASSERT_TRUE(child.has_value()) << child.error().text();
+    EXPECT_EQ(readAll(child->output()), "");
+    auto fed = shell("[ -S /proc/self/fd/0 ] && echo fed", {.takesInput = true});
+    EXPECT_EQ(readAll(fed->output()), "fed\n") << "the test finds no sockets";
+    ::close(ours);
+}
+
 TEST(Process, TheEnvironmentIsAddedToOurs) {
     auto child =
         shell("echo \"$GNOMON_PROBE,${PATH:+has path}\"", {.environment = {"GNOMON_PROBE=there"}});

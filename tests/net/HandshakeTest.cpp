@@ -212,6 +212,23 @@ TEST(Handshake, AClientWithoutABulkConnectionIsPutOutAfterAWhile) {
     expectStillServing(server);
 }
 
+// Cut off without a word: the server finds out when somebody else comes.
+TEST(Handshake, AClientThatFellSilentGivesWayToTheNext) {
+    TestServer server{"left"};
+    RawSocket silent{server.port()};
+    silent.send(packet(wire::ClientHello{.token = 9, .schema = testTypes().schema()}));
+    ASSERT_TRUE(server.waitUntil([](const Seen& s) { return s.joined == 1; }));
+    RawSocket bulk{server.port()};
+    bulk.send(packet(wire::ClientHello{.role = wire::Role::bulk, .token = 9}));
+    TestHub hub;
+    hub->connect(server.address());
+    // Long before the 30 s after which the server gives it up by itself.
+    const auto joined = hub->waitForAll({}, in(20s));
+    EXPECT_TRUE(joined) << joined.error().what;
+    EXPECT_EQ(server.seen().left.size(), 1U);
+    EXPECT_NE(server.seen().left.at(0).find("it was silent for "), std::string::npos);
+}
+
 TEST(Handshake, AServerThatSaysNothingIsGivenUpAfterStartTimeout) {
     const DeafListener deaf;
     TestHub hub{{.startTimeout = 150ms}};

@@ -1,5 +1,6 @@
 #include <fcntl.h>
 #include <gnomon/base/Process.h>
+#include <linux/close_range.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -25,11 +26,20 @@ void closeFd(int& fd) noexcept {
 
 std::error_code lastError() { return {errno, std::generic_category()}; }
 
+/// A library's descriptors (Asio's sockets among them) would stay open in the program, and with
+/// them connections that we closed. Ours that are to stay have been put in their places.
+void keepFilesFrom(int first) noexcept {
+    if (::close_range(static_cast<unsigned>(first), ~0U, CLOSE_RANGE_CLOEXEC) == 0) return;
+    const auto most = static_cast<int>(::sysconf(_SC_OPEN_MAX));  // before Linux 5.11
+    for (int fd = first; fd < most; ++fd) ::fcntl(fd, F_SETFD, FD_CLOEXEC);
+}
+
 /// What runs in the child between fork and exec: async-signal-safe calls only.
 [[noreturn]] void becomeProgram(const ChildOptions& options, const char* program,
                                 char* const* arguments, char* const* environment, int in, int out,
                                 int err, int report, pid_t parent) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    ::signal(SIGPIPE, SIG_DFL);               // what we ignore the program would ignore, too
     if (::getppid() != parent) ::_exit(127);  // the parent died before prctl took hold
     ::dup2(out, STDOUT_FILENO);
     if (err >= 0) ::dup2(err, STDERR_FILENO);
@@ -44,6 +54,7 @@ std::error_code lastError() { return {errno, std::generic_category()}; }
         const rlimit limit{seconds, seconds + 1};
         ::setrlimit(RLIMIT_CPU, &limit);
     }
+    keepFilesFrom(STDERR_FILENO + 1);
     ::execve(program, arguments, environment);
     const int code = errno;
     [[maybe_unused]] const auto written = ::write(report, &code, sizeof code);
