@@ -195,7 +195,7 @@ Result<void> outcomeOf(const M& message) {
 TEST(Messages, ValuesThatMakeNoSenseAreRefused) {
     const auto tail = someBytes(10);
     const Nonsense rows[] = {
-        {"flags", outcomeOf(wire::Frame{.flags = 16}), "unknown flags"},
+        {"flags", outcomeOf(wire::Frame{.flags = 32}), "unknown flags"},
         {"partOutside", outcomeOf(wire::Payload{.total = 10, .offset = 1, .tail = tail}),
          "outside"},
         {"offsetOutside",
