@@ -158,15 +158,17 @@ vec4 planeAt(ShadowPoint point, vec2 share) {
 }
 
 // Comparison at a place in a map, interpolated between the four nearest texels.
-//   least  depth times w that hides nothing, though it may be above the receiver's plane; 0 at the
-//          least: a receiver beyond the map is never darker than what was not drawn
+// What is not nearer to the light than the place itself cannot shadow it: where surfaces meet, a
+// texel away, the other one may be above the receiver's plane.
+//   least  depth times w that hides nothing besides; 0 at the least: a receiver beyond the map is never
+//          darker than what was not drawn
 float pageCompare(int first, ShadowPoint point, float least) {
     vec2 share;
     vec4 casters = texelsAt(first, point, share);
-    least = max(least, 0.0);
 #ifdef PERSPECTIVE_MAPS
     least /= max(point.w, 1e-6);
 #endif
+    least = max(max(least, point.place.z), 0.0);
     vec4 lit = vec4(greaterThanEqual(max(planeAt(point, share), least), casters));
     vec2 row = mix(lit.wx, lit.zy, share.x);
     return mix(row.x, row.y, share.y);
