@@ -36,7 +36,7 @@ float filteredShadow(int first, ShadowPoint point) {
     float away = reach * sqrt(step_);
     float sum = 0.0, hides = 0.0;
     vec2 turn = vec2(1.0, 0.0);
-    float more = shadowMaps[first].kernel.w > 1.0 ? 32.0 : 4.0;
+    float more = shadowMaps[first].kernel.w > 1.0 ? 48.0 : 4.0;
     float count = searching ? searches + more : 0.0;
     for (float i = 0.0; i < count; i += 1.0) {
         ShadowPoint at = movedPoint(first, point, turn * away);
