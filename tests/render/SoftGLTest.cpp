@@ -69,6 +69,20 @@ TEST_P(SoftGLTest, TheSunsPenumbraIsAsWideAsItsDiskAndWithoutBands) {
     });
 }
 
+TEST_P(SoftGLTest, WhatIsLowInAWidePenumbraHidesNoMoreThanItsOwn) {
+    // A kerb along the row's direction, lower than a pixel is wide: its own shadow falls along it.
+    add(root, quad({-9.0F, 0.02F, -0.1F}, {18.0F, 0.0F, 0.0F}, {0.0F, 0.0F, -0.5F}));
+    const double angle = 2.0 * std::numbers::pi / 180.0;
+    const auto found = row(std::string{GetParam()} + "+ppcf", angle);
+    for (std::size_t x = 0; x < found.size(); ++x) {
+        const double place = placeOf(x);
+        if (place < -2.5 || place > 4.0) continue;
+        const double beside = std::atan2(height, place - edge) - std::numbers::pi / 4.0;
+        EXPECT_NEAR(found[x], shareOfDisk(-std::sin(beside) / std::sin(angle)), 0.06)
+            << "at " << place << " m";
+    }
+}
+
 TEST_P(SoftGLTest, AKernelOfMetresIsAsWideInEveryMapAndWithoutBands) {
     const double softness = 0.2;
     const auto found = row(std::string{GetParam()} + "+pcf", 0.0, softness);

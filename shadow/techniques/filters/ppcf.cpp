@@ -13,7 +13,8 @@ FilterInfo describe_ppcf() {
     return {.name = "ppcf",
             .source = "Fernando 2005",
             .glsl = R"glsl(
-const float searches = 8.0;
+// Searches an octave of distance, and how many there are at the least.
+const float perOctave = 1.4, leastSearches = 6.0;
 
 float filteredShadow(int first, ShadowPoint point) {
     float spread = shadowMaps[first].light.x;
@@ -29,11 +30,13 @@ float filteredShadow(int first, ShadowPoint point) {
     // it in the map. Each stands for the share of the light that what it finds there hides.
     bool searching = known < 0.0 && reach * texels >= 0.5;
     float texel = 1.0 / texels;
-    float step_ = exp2(-log2(max(2.0 * reach * texels, 2.0)) / searches);
+    float octaves = log2(max(2.0 * reach * texels, 2.0));
+    float searches = max(ceil(perOctave * octaves), leastSearches);
+    float step_ = exp2(-octaves / searches);
     float away = reach * sqrt(step_);
     float sum = 0.0, hides = 0.0;
     vec2 turn = vec2(1.0, 0.0);
-    float more = shadowMaps[first].kernel.w > 1.0 ? 32.0 : 12.0;
+    float more = shadowMaps[first].kernel.w > 1.0 ? 48.0 : 4.0;
     float count = searching ? searches + more : 0.0;
     for (float i = 0.0; i < count; i += 1.0) {
         ShadowPoint at = movedPoint(first, point, turn * away);
@@ -57,7 +60,11 @@ float filteredShadow(int first, ShadowPoint point) {
     known = searching && hides == 0.0 ? 1.0 : known;
     float radius = hides > 0.0 ? min(spread * max(sum / hides - here, 0.0), reach) : 0.0;
     count = known >= 0.0 ? 0.0 : samplesOf(first, 2.0 * radius * texels);
-    return known >= 0.0 ? known : diskShadow(first, point, radius, count);
+    // What is low beside the penumbra's casters hides the light from where it is near, if at all: what
+    // is less than half as high as the ray to the light's rim is left out.
+    float rise = 0.5 / max(spread, 1e-9);
+    float lit = diskShadow(first, point, radius, count, here - texel * rise, rise);
+    return known >= 0.0 ? known : lit;
 }
 )glsl",
             .shared = softGlsl(),

@@ -80,7 +80,11 @@ uint pagesOf(int map) {
 }
 
 float axialOf(int first, vec4 place) {
+#ifdef PERSPECTIVE_MAPS
     return max(shadowMaps[first].light.y + shadowMaps[first].light.z * place.z, 1e-6);
+#else
+    return 1.0;
+#endif
 }
 
 // In a light's first map, from an interpolated shadowPlace(). In uniform control flow.
@@ -154,11 +158,18 @@ vec4 planeAt(ShadowPoint point, vec2 share) {
 }
 
 // Comparison at a place in a map, interpolated between the four nearest texels.
-float pageCompare(int first, ShadowPoint point) {
+// What is not nearer to the light than the place itself cannot shadow it: where surfaces meet, a
+// texel away, the other one may be above the receiver's plane.
+//   least  depth times w that hides nothing besides; 0 at the least: a receiver beyond the map is never
+//          darker than what was not drawn
+float pageCompare(int first, ShadowPoint point, float least) {
     vec2 share;
     vec4 casters = texelsAt(first, point, share);
-    // A receiver beyond the map is never darker than what was not drawn.
-    vec4 lit = vec4(greaterThanEqual(max(planeAt(point, share), 0.0), casters));
+#ifdef PERSPECTIVE_MAPS
+    least /= max(point.w, 1e-6);
+#endif
+    least = max(max(least, point.place.z), 0.0);
+    vec4 lit = vec4(greaterThanEqual(max(planeAt(point, share), least), casters));
     vec2 row = mix(lit.wx, lit.zy, share.x);
     return mix(row.x, row.y, share.y);
 }
@@ -181,8 +192,14 @@ ShadowPoint movedPoint(int first, ShadowPoint point, vec2 by) {
 // How many texels a unit of the light's plane is at a place: the longest way.
 float texelsPerUnit(int first, ShadowPoint point) {
     vec3 u = shadowMaps[first].alongU.xyz, v = shadowMaps[first].alongV.xyz;
-    vec2 a = u.xy * point.scale - point.place.xy * u.z, b = v.xy * point.scale - point.place.xy * v.z;
-    return sqrt(max(dot(a, a), dot(b, b))) / max(point.w, 1e-6);
+    vec2 a = u.xy * point.scale, b = v.xy * point.scale;
+    float perUnit = 1.0;
+#ifdef PERSPECTIVE_MAPS
+    a -= point.place.xy * u.z;
+    b -= point.place.xy * v.z;
+    perUnit = max(point.w, 1e-6);
+#endif
+    return sqrt(max(dot(a, a), dot(b, b))) / perUnit;
 }
 
 float filteredShadow(int first, ShadowPoint point);

@@ -93,9 +93,11 @@ struct Around {
 //   radius  texels
 Around around(int first, ShadowPoint point, float radius) {
     radius += 1.0;  // what is interpolated
-    // Cells as large as that: their neighbours are in what is known of them.
-    int level = clamp(int(ceil(log2(radius * 0.25))), 0, 20);
-    float cellSide = float(4 << level);
+    // Cells as large as that: their neighbours are in what is known of them. The least power of two,
+    // by its exponent.
+    int power = (floatBitsToInt(clamp(radius, 4.0, 4e6)) + 0x7fffff) >> 23;
+    int level = power - 129;
+    float cellSide = intBitsToFloat(power << 23), perCell = intBitsToFloat((254 - power) << 23);
     float pageSize = shadowMaps[first].size.y;
     if (cellSide > pageSize) return Around(false, false, 1.0);
     vec2 corner;
@@ -106,7 +108,7 @@ Around around(int first, ShadowPoint point, float radius) {
     if (layer == pageMissing || max(over.x, over.y) > 0.5 * pageSize)
         return Around(false, false, 1.0);
 #endif
-    ivec2 cell = ivec2(clamp(at / cellSide, vec2(0.0), vec2(ceil(pageSize / cellSide) - 1.0)));
+    ivec2 cell = ivec2(clamp(at * perCell, vec2(0.0), vec2(ceil(pageSize * perCell) - 1.0)));
     vec4 bounds = texelFetch(shadowBounds, ivec3(cell, int(layer)), level);
     float here = dot(bounds.xy, at - (vec2(cell) + 0.5) * cellSide);
     vec2 off = abs(bounds.xy - point.slope) * radius;
@@ -139,14 +141,16 @@ float samplesOf(int first, float texelsAcross) {
 // The share of a disk that is lit. Without samples as with one: software GL executes what is written
 // for all pixels, whatever they branch to, so that each lookup is written once and skipped by its
 // loop's end alone.
-//   radius  in units of the light's plane
-float diskShadow(int first, ShadowPoint point, float radius, float count) {
+//   radius       in units of the light's plane
+//   least, rise  depth times w that hides nothing, of the middle and a unit away from it
+float diskShadow(int first, ShadowPoint point, float radius, float count, float least, float rise) {
     float share = count > 1.0 ? radius * inversesqrt(count) : 0.0;
     float lit = 0.0;
     vec2 turn = vec2(1.0, 0.0);
     float i = 0.5;
     do {
-        lit += pageCompare(first, movedPoint(first, point, turn * (sqrt(i) * share)));
+        float away = sqrt(i) * share;
+        lit += pageCompare(first, movedPoint(first, point, turn * away), least + away * rise);
         turn = goldenTurn * turn;
         i += 1.0;
     } while (i < count);
