@@ -48,7 +48,8 @@ Result<void> Aspect::applyCreations(Reader& from, std::uint32_t count, Applied* 
         if (!id) return refused(from, "a container with id 0");
         if (!own && space_ != 0 && id.space() == space_)
             return refused(from, numberOf(id) + " is not the sender's to create");
-        if (containers_.find(id) != nullptr) return refused(from, numberOf(id) + " is created twice");
+        if (containers_.find(id) != nullptr)
+            return refused(from, numberOf(id) + " is created twice");
         FieldContainer& made = insert(*type, id);
         if (own) nextCounter_ = std::max(nextCounter_, id.counter() + 1);
         if (own && recorded(made)) listCreated(made);
