@@ -24,7 +24,6 @@ std::string text(const field::Hash128& hash) {
 }  // namespace
 
 Result<void> FrameGate::payload(const wire::Payload& part, Source source) {
-    relayed_ |= source == Source::relay;
     auto& slot = upload(source);
     if (!slot) {
         if (part.offset != 0)
@@ -197,7 +196,7 @@ Result<bool> FrameGate::pass(WaitingFrame& waiting) {
     if (!haveAll(waiting.needed)) return false;
     give(waiting.needed, frame.changes);
     for (const auto& release : waiting.released) {
-        if (relayed_) released_.insert(release.serial);
+        released_.insert(release.serial);
         const auto found = kept_.find(release.hash);
         if (found == kept_.end() || found->second.serial != release.serial) continue;
         keptBytes_ -= found->second.payload.size();

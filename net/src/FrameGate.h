@@ -12,9 +12,10 @@
 #include <optional>
 #include <span>
 #include <unordered_map>
-#include <unordered_set>
 #include <variant>
 #include <vector>
+
+#include "SerialSet.h"
 
 namespace gnomon::net {
 
@@ -102,10 +103,7 @@ private:
     std::array<std::optional<Upload>, 2> uploads_;  // by source
     std::unordered_map<field::Hash128, Kept> kept_;
     std::uint64_t keptBytes_ = 0, bytesArrived_ = 0;
-    // Serials that frames released: from another source such an upload may still come. Only filled
-    // where there was another one.
-    bool relayed_ = false;
-    std::unordered_set<std::uint64_t> released_;
+    SerialSet released_;  // by frames: from another source such an upload may still come
     std::vector<std::byte> snapshot_;
     std::optional<WaitingSnapshot> beginning_;  // it is whole; payloads may be missing
     bool started_ = false;                      // the snapshot was handed on

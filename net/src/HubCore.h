@@ -105,6 +105,8 @@ private:
     // HubRelay.cpp: who gets payloads from whom.
     Peer* relayFor(const Peer& peer) const;
     void provide(Peer& peer, Peer* relay, const std::vector<PayloadLedger::Kept>& missing);
+    std::vector<PayloadLedger::Kept> missingAt(const Peer& peer) const;
+    void forgetReleased();
     void leaveTree(Peer& peer);
 
     // HubMembers.cpp: joining, lateness, loss.

@@ -85,7 +85,8 @@ void HubCore::encode(FrameCall& call) {
     std::vector<PayloadLedger::Kept> fresh;
     wire::Frame frame{.n = call.n, .time = call.time};
     frame.needed = ledger_.take(list, call.n, fresh);
-    frame.released = ledger_.release(session_.takeUnusedPayloads());
+    frame.released = ledger_.release(session_.takeUnusedPayloads(), call.n, options_.relay > 0);
+    forgetReleased();
     const bool wantsDepth = hooks_.fit && hooks_.wantsDepth && hooks_.wantsDepth(session_, call.n);
     const bool tellsDepth =
         !wantsDepth && hooks_.depthSeen && hooks_.tellsDepth && hooks_.tellsDepth(session_, call.n);

@@ -55,9 +55,33 @@ void HubCore::provide(Peer& peer, Peer* relay, const std::vector<PayloadLedger::
                         .port = peer.address().port,
                         .after = ledger_.newest()};
     message.uploads.reserve(missing.size());
-    for (const auto& kept : missing) message.uploads.push_back(kept.serial);
+    for (const auto& kept : missing) {
+        if (kept.released == 0)
+            message.uploads.push_back(kept.serial);
+        else  // the relay may be rid of it by now
+            uploadTo(peer, kept);
+    }
     relay->queue(Part::of(packet(message)));
     relay->flush();
+}
+
+/// What it may not have got from the relay that is lost. It is ready for a frame only when it had
+/// all that the frame needs.
+std::vector<PayloadLedger::Kept> HubCore::missingAt(const Peer& peer) const {
+    const Standing& standing = peer.standing;
+    return ledger_.since(standing.lastReady, std::max(standing.lastReady, standing.snapshot));
+}
+
+/// Nobody behind a relay can need it any more.
+void HubCore::forgetReleased() {
+    if (!ledger_.holdsAny()) return;
+    std::uint64_t have = preparedN_;
+    for (const auto& peer : peers_) {
+        const Standing& standing = peer->standing;
+        if (standing.joined && standing.relay != nullptr)
+            have = std::min(have, std::max(standing.lastReady, standing.snapshot));
+    }
+    ledger_.forget(have);
 }
 
 void HubCore::leaveTree(Peer& peer) {
@@ -73,7 +97,7 @@ void HubCore::leaveTree(Peer& peer) {
             if (stopped_) return;
             for (const auto& child : peers_)
                 if (child->standing.joined && child->standing.relay == gone)
-                    provide(*child, relayFor(*child), ledger_.since(child->standing.lastReady));
+                    provide(*child, relayFor(*child), missingAt(*child));
         });
 }
 
@@ -87,7 +111,7 @@ void HubCore::relayLost(Peer& peer, const wire::RelayLost& lost) {
     log(LogLevel::info, fmt::format("{}: cannot pass payloads on to {}: {}", peer.label(),
                                     child.label(), lost.why));
     --peer.standing.relays;
-    provide(child, nullptr, ledger_.since(child.standing.lastReady));
+    provide(child, nullptr, missingAt(child));
 }
 
 }  // namespace gnomon::net

@@ -48,7 +48,7 @@ private:
     struct Child {
         wire::Relay relay = {};
         std::unordered_set<std::uint64_t> wanted = {};  // listed, not here yet
-        std::unordered_set<std::uint64_t> begun = {};   // that came after
+        SerialSet begun = {};
         std::deque<Item> items = {};
         std::uint64_t offset = 0;  // of the first item, sent
         std::unique_ptr<Dialer> dialer = {};

@@ -129,6 +129,26 @@ TEST(Relay, ALostRelayInTheMidstOfALargePayloadIsMadeUpFor) {
     EXPECT_EQ(hub->totals().lost, 1U);
 }
 
+TEST(Relay, ALostRelayIsMadeUpForWhenTheNextFrameReleasesWhatItWasPassingOn) {
+    Servers servers{3};
+    TestHub hub{{.timeout = 20s, .relay = 1}};  // a chain
+    field::Aspect aspect{hub.types(), 2};
+    for (TestServer& server : servers) {
+        hub->connect(server.address());
+        ASSERT_TRUE(hub->waitForAll({}, eventually()));
+    }
+    std::mt19937 random{1};
+    const Thing& thing = aspect.create<Thing>();
+    field::edit(thing)->data = randomPayload(random, std::size_t{48} << 20U);
+    hub->frame(aspect.commit(), 0);  // returns while it is on its way
+    field::edit(thing)->data = field::Payload{};
+    servers[0].kill();
+    const auto n = hub->frame(aspect.commit(), 0).n;
+    hub->frame({}, 0);
+    expectTheSameEverywhere(servers, n, aspect, &servers[0]);
+    EXPECT_EQ(hub->totals().lost, 1U);
+}
+
 TEST(Relay, AServerThatComesLateGetsWhatWasSentBefore) {
     Servers servers{3};
     TestHub hub{{.timeout = 10s, .relay = 1}};
