@@ -44,14 +44,11 @@ void LocalSession::commit() {
         fitter_.fit(session_, orThrow(renderer_->depthSpan(false)));
         replicate(session_.commit());
     }
-    aspect_.takeUnusedPayloads();
-    session_.takeUnusedPayloads();
 }
 
 void LocalSession::replicate(field::ChangeList changes) {
     field::Applied applied;
     orThrow(replica_.apply(changes, &applied));
-    replica_.takeUnusedPayloads();
     if (!applied.empty()) renderer_->update(applied);
 }
 

@@ -22,7 +22,9 @@ HubCore::HubCore(asio::io_context& io, const field::TypeRegistry& types, SyncOpt
       tls_{key ? std::make_shared<const TlsContext>(TlsSide::client, key) : nullptr},
       session_{types, 1},
       watchTimer_{io},
-      stopTimer_{io} {}
+      stopTimer_{io} {
+    session_.followPayloads();
+}
 
 void HubCore::connect(ServerAddress address) {
     if (stopped_) return;

@@ -136,7 +136,6 @@ bool FrameLoop::apply(const field::ChangeList& changes) {
     field::Applied applied;
     auto done = session_->scene->apply(changes, &applied);
     if (!done) throw Failure{std::move(done).error()};
-    session_->scene->takeUnusedPayloads();
     if (applied.empty()) return false;
     findWindows(applied);
     for (auto& [gpu, station] : stations_) station->update(applied);

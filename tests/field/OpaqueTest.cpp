@@ -54,6 +54,7 @@ TEST(Opaque, PayloadsAreCounted) {
     const TypeRegistry foreign = strangerTo(types);
     Aspect source{types, 1};
     Aspect stranger{foreign, 0};
+    stranger.followPayloads();
     const Item& item = source.create<Item>();
     edit(item)->blobs.assign({payloadOf("a"), payloadOf("b")});
     expectApplied(stranger.apply(source.commit()));

@@ -32,6 +32,8 @@ TEST(Payload, CostsASecondAspectAPointer) {
 
 TEST(Payload, IsReleasedWhenTheLastFieldLetsGo) {
     Pair pair;
+    pair.source.followPayloads();
+    pair.replica.followPayloads();
     const Item& a = pair.source.create<Item>();
     const Item& b = pair.source.create<Item>();
     const Payload bulk = payloadOf("bulk");
@@ -52,6 +54,7 @@ TEST(Payload, IsReleasedWhenTheLastFieldLetsGo) {
 
 TEST(Payload, UsedAgainBeforeItWasAskedForIsNotUnused) {
     Pair pair;
+    pair.source.followPayloads();
     const Item& a = pair.source.create<Item>();
     edit(a)->data = payloadOf("bulk");
     edit(a)->data = Payload{};

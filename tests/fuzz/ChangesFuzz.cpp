@@ -83,7 +83,6 @@ public:
             require(done.error().code == Errc::protocol, "a refusal is an error of protocol");
             return false;
         }
-        aspect_.takeUnusedPayloads();
         flat_.update(root(), {}, applied);
         // Understood: then another can follow it.
         field::Aspect next{types_, 0};

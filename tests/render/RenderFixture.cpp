@@ -201,10 +201,22 @@ void RenderTest::expectClose(const Rgb& found, const Rgb& expected, int toleranc
         EXPECT_NEAR(found[c], expected[c], tolerance) << what << ", channel " << c;
 }
 
+namespace {
+
+/// They read maps as another filter does, which is tried with every fit; what is theirs shows with
+/// one warp and with cascades.
+constexpr std::array<std::string_view, 4> variants{"rotated", "hardware", "vsm16", "evsm16"};
+
+}  // namespace
+
 std::vector<Technique> techniques() {
     std::vector<Technique> all;
     for (const shadow_fit::FitInfo& fit : shadow_fit::fits())
-        for (const shadow::FilterInfo& filter : shadow::filters()) all.push_back({fit, filter});
+        for (const shadow::FilterInfo& filter : shadow::filters()) {
+            const bool variant =
+                std::find(variants.begin(), variants.end(), filter.name) != variants.end();
+            if (!variant || fit.name == "lispsm" || fit.name == "csm") all.push_back({fit, filter});
+        }
     return all;
 }
 

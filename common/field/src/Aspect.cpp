@@ -115,7 +115,8 @@ Result<void> Aspect::countUses() {
     }
     for (const Payload& payload : log_.addedPayloads) payloads_.use(payload);
     for (const Payload& payload : log_.droppedPayloads)
-        if (payloads_.drop(payload.hash())) unusedPayloads_.push_back(payload.hash());
+        if (payloads_.drop(payload.hash()) && followsPayloads_)
+            unusedPayloads_.push_back(payload.hash());
     log_.clear();
     if (missing)
         return fail(Errc::protocol,
@@ -242,6 +243,9 @@ ChangeList Aspect::snapshot() const {
 void Aspect::stale(FieldContainer& container) {
     if (container.digestStale_ || !container.type_->replicated) return;
     container.digestStale_ = true;
+    // Those that are gone again, where nobody asks for digests.
+    if (staleDigests_.size() > 2 * containers_.size() + 64)
+        std::erase_if(staleDigests_, [&](Id id) { return containers_.find(id) == nullptr; });
     staleDigests_.push_back(container.id_);
 }
 

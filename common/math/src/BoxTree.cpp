@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace gnomon::math {
 namespace {
@@ -54,53 +53,65 @@ BoxTree::Ray::Ray(const dvec3& origin, const dvec3& direction) noexcept : from{o
     }
 }
 
+/// The middle of a box, twice, beside the box's place: what is sorted lies together.
+struct BoxTree::Middle {
+    dvec3 twice{0.0};
+    std::uint32_t item = 0;
+    bool counts = false;  ///< the box is not empty
+};
+
 void BoxTree::rebuild() {
     nodes_.clear();
     dirty_.clear();
-    order_.resize(boxes_.size());
     leafOf_.resize(boxes_.size());
-    std::iota(order_.begin(), order_.end(), 0U);
     nodes_.reserve(boxes_.size());
-    if (!boxes_.empty()) buildNode(0, static_cast<std::uint32_t>(boxes_.size()), 0);
+    std::vector<Middle> middles(boxes_.size());
+    for (std::uint32_t i = 0; i < boxes_.size(); ++i) {
+        Middle& middle = middles[i];
+        middle.item = i;
+        if (boxes_[i].empty()) continue;
+        middle.counts = true;
+        middle.twice = boxes_[i].min + boxes_[i].max;
+        // Of a box from minus to plus infinity no number: an order must not see it.
+        for (int axis = 0; axis < 3; ++axis)
+            if (std::isnan(middle.twice[axis])) middle.twice[axis] = 0.0;
+    }
+    order_.clear();
+    order_.reserve(boxes_.size());
+    if (!boxes_.empty()) buildNode(middles, 0);
     built_ = looseness();
     movedSince_ = 0;
 }
 
-std::uint32_t BoxTree::buildNode(std::uint32_t first, std::uint32_t last, std::uint32_t parent) {
+std::uint32_t BoxTree::buildNode(std::span<Middle> items, std::uint32_t parent) {
     const auto index = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.push_back({.first = first, .count = last - first, .parent = parent});
-    Box box;
-    Box centres;
-    for (std::uint32_t i = first; i < last; ++i) {
-        const Box& item = boxes_[order_[i]];
-        if (item.empty()) continue;
-        box.add(item);
-        centres.add(item.centre());
-    }
-    nodes_[index].box = box;
-    if (last - first <= leafItems) {
-        for (std::uint32_t i = first; i < last; ++i) leafOf_[order_[i]] = index;
+    nodes_.push_back({.parent = parent});
+    if (items.size() <= leafItems) {
+        nodes_[index].first = static_cast<std::uint32_t>(order_.size());
+        nodes_[index].count = static_cast<std::uint32_t>(items.size());
+        for (const Middle& middle : items) {
+            leafOf_[middle.item] = index;
+            order_.push_back(middle.item);
+        }
+        nodes_[index].box = boxOf(nodes_[index], index);
         return index;
     }
     // Halves by number: balanced whatever the boxes are, empty ones too.
-    const dvec3 size = centres.empty() ? dvec3{0.0} : centres.size();
+    Box middles;
+    for (const Middle& middle : items)
+        if (middle.counts) middles.add(middle.twice);
+    const dvec3 size = middles.empty() ? dvec3{0.0} : middles.size();
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const std::uint32_t middle = first + (last - first) / 2;
-    const auto key = [&](std::uint32_t item) {
-        const double twice = boxes_[item].min[axis] + boxes_[item].max[axis];
-        // Of a box from minus to plus infinity no number: an order must not see it.
-        return boxes_[item].empty() || std::isnan(twice) ? 0.0 : twice;
-    };
-    std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
-                     [&](std::uint32_t a, std::uint32_t b) {
-                         const double x = key(a);
-                         const double y = key(b);
-                         return x < y || (x == y && a < b);
+    const auto half = items.size() / 2;
+    std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(),
+                     [axis](const Middle& a, const Middle& b) {
+                         const double x = a.twice[axis];
+                         const double y = b.twice[axis];
+                         return x < y || (x == y && a.item < b.item);
                      });
-    nodes_[index].count = 0;
-    buildNode(first, middle, index);
-    const std::uint32_t second = buildNode(middle, last, index);
-    nodes_[index].second = second;
+    buildNode(items.first(half), index);
+    nodes_[index].second = buildNode(items.subspan(half), index);
+    nodes_[index].box = boxOf(nodes_[index], index);
     return index;
 }
 
@@ -111,7 +122,8 @@ Box BoxTree::boxOf(const Node& node, std::uint32_t index) const noexcept {
         box.add(nodes_[node.second].box);
         return box;
     }
-    for (std::uint32_t i = 0; i < node.count; ++i) box.add(boxes_[order_[node.first + i]]);
+    for (std::uint32_t i = 0; i < node.count; ++i)
+        if (const Box& item = boxes_[order_[node.first + i]]; !item.empty()) box.add(item);
     return box;
 }
 

@@ -11,12 +11,16 @@ namespace {
 
 /// What blurs whole maps knows nothing beyond a page.
 constexpr int largePage = 4096;
-constexpr std::array<FilterUse, 6> uses{{{"hard", Spread::none},
-                                         {"pcf", Spread::fixed},
-                                         {"ppcf", Spread::penumbra},
-                                         {"square", Spread::texels},
-                                         {"vsm", Spread::fixed, largePage, 3.0},
-                                         {"evsm", Spread::fixed, largePage, 3.0}}};
+constexpr std::array<FilterUse, 10> uses{{{"hard", Spread::none},
+                                          {"pcf", Spread::fixed},
+                                          {"rotated", Spread::fixed},
+                                          {"hardware", Spread::fixed},
+                                          {"ppcf", Spread::penumbra},
+                                          {"square", Spread::texels},
+                                          {"vsm", Spread::fixed, largePage, 3.0},
+                                          {"evsm", Spread::fixed, largePage, 3.0},
+                                          {"vsm16", Spread::fixed, largePage, 3.0},
+                                          {"evsm16", Spread::fixed, largePage, 3.0}}};
 
 /// A lookup that goes further than this many tangents around would see half the world.
 constexpr double mostTangents = 2.0;

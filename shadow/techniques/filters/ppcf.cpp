@@ -63,7 +63,8 @@ float filteredShadow(int first, ShadowPoint point) {
     // What is low beside the penumbra's casters hides the light from where it is near, if at all: what
     // is less than half as high as the ray to the light's rim is left out.
     float rise = 0.5 / max(spread, 1e-9);
-    float lit = diskShadow(first, point, radius, count, here - texel * rise, rise);
+    float lit =
+        diskShadow(first, point, radius, vec2(1.0, 0.0), count, here - texel * rise, rise);
     return known >= 0.0 ? known : lit;
 }
 )glsl",

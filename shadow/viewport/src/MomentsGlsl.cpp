@@ -1,9 +1,12 @@
 #include <gnomon/shadow/Filter.h>
 
+#include <string>
+
 namespace gnomon::shadow {
 
-std::string_view momentLevelsGlsl() noexcept {
-    return R"glsl(
+namespace {
+
+constexpr std::string_view levels = R"glsl(
 vec4 nextLevel(ivec2 cell) {
     ivec2 at = cell * 2;
     return 0.25 * (texelFetch(cells, at, 0) + texelFetch(cells, at + ivec2(1, 0), 0) +
@@ -25,6 +28,33 @@ vec4 kept(ivec2 cell) {
     return sum / 16.0;
 }
 )glsl";
+
+std::string with(std::string_view firstLevel) { return std::string{firstLevel}.append(levels); }
+
+}  // namespace
+
+std::string_view varianceLevelsGlsl() {
+    static const std::string text = with(R"glsl(
+// Of a depth of 0.
+const vec4 nothing = vec4(stored(-0.5, 0.25), 0.0, 0.0);
+vec4 firstLevel(ivec2 cell) {
+    vec4 depths = textureGather(page, vec3((vec2(cell * 2) + 2.0) * texel, layer)) - 0.5;
+    return vec4(stored(dot(depths, vec4(0.25)), dot(depths, depths) * 0.25), 0.0, 0.0);
+}
+)glsl");
+    return text;
+}
+
+std::string_view exponentLevelsGlsl() {
+    static const std::string text = with(R"glsl(
+const vec4 nothing = vec4(exp(-0.5 * exponent), exp(-exponent), -exp(0.5 * exponent), exp(exponent));
+vec4 firstLevel(ivec2 cell) {
+    vec4 depths = textureGather(page, vec3((vec2(cell * 2) + 2.0) * texel, layer)) - 0.5;
+    vec4 up = exp(exponent * depths), down = -exp(-exponent * depths);
+    return 0.25 * vec4(dot(up, vec4(1.0)), dot(up, up), dot(down, vec4(1.0)), dot(down, down));
+}
+)glsl");
+    return text;
 }
 
 std::string_view momentsGlsl() noexcept {
@@ -68,6 +98,31 @@ float litAtMost(vec2 moments, float here, float leastVariance) {
     float variance = max(moments.y - moments.x * moments.x, leastVariance);
     float most = variance / (variance + behind * behind);
     return behind <= 0.0 ? 1.0 : clamp((most - 0.2) / 0.8, 0.0, 1.0);
+}
+
+// By the moments of depths, which count from the middle of their range.
+//   steps  variance that their format makes of nothing
+float litByVariance(ShadowPoint point, vec2 moments, float steps) {
+    float slope = abs(point.slope.x) + abs(point.slope.y);
+    float here = point.place.z - 0.5 + slope * slackTexels;
+    return litAtMost(moments, here, steps + slope * slope * 0.25);
+}
+
+// By the moments of depths that an exponential warps, one way and the other.
+//   steps  what their format makes of nothing, as a deviation of the depth
+float litByExponents(int first, ShadowPoint point, float exponent, float steps) {
+    float slope = abs(point.slope.x) + abs(point.slope.y);
+    float here = point.place.z - 0.5 + slope * slackTexels;
+    vec4 moments = momentsAround(first, point);
+    // The mean of what is convex is above what the mean makes of it: for a plane by this much.
+    float across = 0.5 * slope * kernelRadius(first, point);
+    float up = exp(exponent * (here + 0.5 * exponent * across * across));
+    float down = -exp(-exponent * here);
+    // What a texel's slope and rounding make of the warped depths.
+    vec2 least = exponent * (slope + steps) * vec2(up, down);
+    least *= least;
+    float lit = min(litAtMost(moments.xy, up, least.x), litAtMost(moments.zw, down, least.y));
+    return moments.x == unknown ? 1.0 : lit;
 }
 )glsl";
 }

@@ -40,6 +40,29 @@ gl::Sampler texelSampler(const gl::Api& gl) {
     return sampler;
 }
 
+gl::Sampler comparingSampler(const gl::Api& gl) {
+    gl::Sampler sampler = texelSampler(gl);
+    gl.SamplerParameteri(sampler.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl.SamplerParameteri(sampler.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl.SamplerParameteri(sampler.id(), GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    gl.SamplerParameteri(sampler.id(), GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);
+    return sampler;
+}
+
+GLenum Pyramid::format() const noexcept {
+    switch (info_.cell) {
+        case Cell::rg16:
+            return GL_RG16;
+        case Cell::rgba16f:
+            return GL_RGBA16F;
+        case Cell::rg32f:
+            return GL_RG32F;
+        case Cell::rgba32f:
+            break;
+    }
+    return GL_RGBA32F;
+}
+
 Pyramid::Pyramid(const gl::Api& gl, const PyramidInfo& info, int pageSize)
     : gl_{gl},
       info_{info},
@@ -75,7 +98,7 @@ gl::Program Pyramid::build(std::string_view label, std::string_view function) co
 
 std::uint64_t Pyramid::bytes() const noexcept {
     const auto cells = static_cast<std::uint64_t>(side_) * static_cast<std::uint64_t>(side_);
-    return layers_ * cells * 4U / 3U * static_cast<std::uint64_t>(info_.channels) * 4U;
+    return layers_ * cells * 4U / 3U * bytesOf(info_.cell);
 }
 
 void Pyramid::reserve(std::uint64_t layers) {

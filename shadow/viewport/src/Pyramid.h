@@ -10,6 +10,8 @@ namespace gnomon::shadow {
 
 /// A sampler of single texels, beyond whose texture there is nothing, as far away as can be.
 gl::Sampler texelSampler(const gl::Api& gl);
+/// One that compares four texels with a depth, interpolated: 1 where none is nearer to the light.
+gl::Sampler comparingSampler(const gl::Api& gl);
 
 /// Summaries of the pages of a pool, coarser from level to level: for filters that need more of a
 /// map than its texels. Made once after a page was drawn.
@@ -27,7 +29,7 @@ public:
     void make(GLuint pages, int layer);
 
 private:
-    GLenum format() const noexcept { return info_.channels == 4 ? GL_RGBA32F : GL_RG32F; }
+    GLenum format() const noexcept;
     gl::Program build(std::string_view label, std::string_view function) const;
 
     const gl::Api& gl_;

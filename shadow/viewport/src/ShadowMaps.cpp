@@ -141,7 +141,12 @@ struct ShadowMaps::Frame {
 };
 
 ShadowMaps::ShadowMaps(const gl::Api& gl)
-    : gl_{gl}, mapsBuffer_{gl}, tableBuffer_{gl}, framebuffer_{gl}, sampler_{texelSampler(gl)} {
+    : gl_{gl},
+      mapsBuffer_{gl},
+      tableBuffer_{gl},
+      framebuffer_{gl},
+      sampler_{texelSampler(gl)},
+      comparing_{comparingSampler(gl)} {
     mapsBuffer_.label("shadow maps");
     tableBuffer_.label("page table");
     framebuffer_.label("shadow page");
@@ -361,6 +366,8 @@ ShadowMaps::Arranged ShadowMaps::arrange(std::span<const field::Id> lights) {
     gl_.BindBufferBase(GL_UNIFORM_BUFFER, tableBinding, tableBuffer_.id());
     gl_.BindTextureUnit(pagesUnit, bound_ == nullptr ? 0 : bound_->texture());
     gl_.BindSampler(pagesUnit, sampler_.id());
+    gl_.BindTextureUnit(comparingUnit, bound_ == nullptr ? 0 : bound_->texture());
+    gl_.BindSampler(comparingUnit, comparing_.id());
     gl_.BindTextureUnit(pyramidUnit, bound_ == nullptr ? 0 : bound_->pyramidTexture());
     const auto some = [&](auto&& is) {
         return std::any_of(arranged_.begin(), arranged_.end(), is);

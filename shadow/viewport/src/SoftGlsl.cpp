@@ -6,7 +6,7 @@ const PyramidInfo& depthBounds() noexcept {
     // A cell's depths lie between two planes of the same slope: x, y: depth a texel to the right
     // and up, z, w: the lower and the upper plane's depth in the middle of the cell. What is flat,
     // at whatever slope, has its planes close together, so that it is told from what stands on it.
-    static constexpr PyramidInfo info{.channels = 4, .texelsPerCell = 4, .glsl = R"glsl(
+    static constexpr PyramidInfo info{.cell = Cell::rgba32f, .texelsPerCell = 4, .glsl = R"glsl(
 vec4 firstLevel(ivec2 cell) {
     vec2 corner = vec2(cell * 4) + 2.0;
     vec4 a = textureGather(page, vec3(corner * texel, layer));
@@ -142,11 +142,12 @@ float samplesOf(int first, float texelsAcross) {
 // for all pixels, whatever they branch to, so that each lookup is written once and skipped by its
 // loop's end alone.
 //   radius       in units of the light's plane
+//   turn         cosine and sine of the angle that the disk is turned by
 //   least, rise  depth times w that hides nothing, of the middle and a unit away from it
-float diskShadow(int first, ShadowPoint point, float radius, float count, float least, float rise) {
+float diskShadow(int first, ShadowPoint point, float radius, vec2 turn, float count, float least,
+                 float rise) {
     float share = count > 1.0 ? radius * inversesqrt(count) : 0.0;
     float lit = 0.0;
-    vec2 turn = vec2(1.0, 0.0);
     float i = 0.5;
     do {
         float away = sqrt(i) * share;

@@ -106,6 +106,8 @@ public:
     /// Of each replicated container, by id, to find which one drifted.
     std::vector<ContainerDigest> digests();
 
+    /// From now on takeUnusedPayloads() is told; else it has nothing. Who follows must take them.
+    void followPayloads() noexcept { followsPayloads_ = true; }
     /// Payloads that no field refers to any more, since the last call.
     std::vector<Hash128> takeUnusedPayloads();
 
@@ -143,6 +145,7 @@ private:
     std::uint64_t nextCounter_ = 1;
     ContainerTable containers_;
     PayloadStore payloads_;
+    bool followsPayloads_ = false;
     std::vector<Hash128> unusedPayloads_;
 
     // Since the last commit; nullptr where a container was destroyed again.

@@ -157,8 +157,10 @@ private:
         }
         return entry <= exit;
     }
+    struct Middle;
+
     void rebuild();
-    std::uint32_t buildNode(std::uint32_t first, std::uint32_t last, std::uint32_t parent);
+    std::uint32_t buildNode(std::span<Middle> items, std::uint32_t parent);
     Box boxOf(const Node& node, std::uint32_t index) const noexcept;
     double looseness() const noexcept;
 

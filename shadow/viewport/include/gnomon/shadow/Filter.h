@@ -1,13 +1,25 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string_view>
 
 namespace gnomon::shadow {
 
+/// How a cell is stored.
+enum class Cell : std::uint8_t {
+    rg16,     ///< two shares of 1, in 65535 steps
+    rgba16f,  ///< four half floats
+    rg32f,
+    rgba32f
+};
+constexpr std::uint64_t bytesOf(Cell cell) noexcept {
+    return cell == Cell::rg16 ? 4U : cell == Cell::rgba32f ? 16U : 8U;
+}
+
 /// What is made of each page after it was drawn: cells of texels, coarser from level to level.
 struct PyramidInfo {
-    int channels = 4;       ///< 2 or 4 floats a cell
+    Cell cell = Cell::rgba32f;
     int texelsPerCell = 4;  ///< a side, of the first level; a cell of the next has twice as many
     /// Together they define three functions. `vec4 firstLevel(ivec2 cell)`, from the page: texel
     /// (x, y) of `page`, layer `layer`, has its middle at (x + 1.5, y + 1.5) * `texel`. `vec4
@@ -44,10 +56,12 @@ std::string_view mapsGlsl() noexcept;
 const PyramidInfo& depthBounds() noexcept;
 /// GLSL of filters that compare many texels, to stand after lookupGlsl(). Needs depthBounds().
 std::string_view softGlsl() noexcept;
-/// GLSL of filters that read moments of the depths, to stand after lookupGlsl(), and the
-/// nextLevel() and kept() of their pyramid.
+/// GLSL of filters that read moments of the depths, to stand after lookupGlsl().
 std::string_view momentsGlsl() noexcept;
-std::string_view momentLevelsGlsl() noexcept;
+/// The levels of their pyramids. Of depths: needs `stored(x, y)`, a vec2, as they are kept; of
+/// warped depths: needs `exponent`.
+std::string_view varianceLevelsGlsl();
+std::string_view exponentLevelsGlsl();
 /// GLSL that declares pages and `shadowFactor()`, to stand after mapsGlsl() and before the
 /// filter's.
 std::string_view lookupGlsl() noexcept;

@@ -63,6 +63,7 @@ public:
     static constexpr GLuint tableBinding = 5;
     static constexpr GLuint pagesUnit = 8;  ///< texture units
     static constexpr GLuint pyramidUnit = 9;
+    static constexpr GLuint comparingUnit = 10;  ///< the pages again, compared when they are read
 
     explicit ShadowMaps(const gl::Api& gl);
     ~ShadowMaps();
@@ -128,7 +129,7 @@ private:
     gl::Buffer mapsBuffer_;
     gl::Buffer tableBuffer_;
     gl::Framebuffer framebuffer_;
-    gl::Sampler sampler_;
+    gl::Sampler sampler_, comparing_;
     std::vector<MapBlock> blocks_;
     std::vector<MapBlock> arranged_;
     std::vector<std::uint32_t> table_;
