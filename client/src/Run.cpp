@@ -240,7 +240,7 @@ private:
 
     void writeJson() {
         std::ofstream out{options_.json};
-        out << statistics_.json(app_.status()).dump(2) << "\n";
+        out << statistics_.json(app_.status(), app_.totals()).dump(2) << "\n";
         out.flush();
         if (!out)
             throw Failure{

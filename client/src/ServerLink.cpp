@@ -25,6 +25,17 @@ net::SyncOptions syncOptions(const config::Config& config) {
     options.waitForLate = sync.onTimeout == config::OnTimeout::wait;
     options.pipeline = sync.pipeline;
     options.relay = config.cluster.relay;
+    switch (config.cluster.compress) {
+        case config::Compress::automatic:
+            options.compress = net::Compress::automatic;
+            break;
+        case config::Compress::never:
+            options.compress = net::Compress::never;
+            break;
+        case config::Compress::always:
+            options.compress = net::Compress::always;
+            break;
+    }
     return options;
 }
 

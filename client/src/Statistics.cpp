@@ -81,7 +81,8 @@ std::string Statistics::summary() const {
                        median, median > 0.0 ? 1000.0 / median : 0.0, frameMs_.quantile(0.99));
 }
 
-nlohmann::json Statistics::json(const std::vector<net::ServerStatus>& servers) const {
+nlohmann::json Statistics::json(const std::vector<net::ServerStatus>& servers,
+                                const net::HubTotals& totals) const {
     const auto count = static_cast<double>(std::max<std::uint64_t>(frames_, 1));
     nlohmann::json all = {
         {"frames", frames_},
@@ -93,6 +94,10 @@ nlohmann::json Statistics::json(const std::vector<net::ServerStatus>& servers) c
         {"skew_ms", {{"median", skewMs_.median()}, {"p99", skewMs_.quantile(0.99)}}},
         {"bytes_per_frame", bytes_ / count},
         {"payload_bytes_per_frame", payloadBytes_ / count},
+        {"sent",
+         {{"control_bytes", totals.controlBytes},
+          {"bulk_bytes", totals.bulkBytes},
+          {"spared_bytes", totals.sparedBytes}}},
         {"servers", nlohmann::json::array()}};
     for (const auto& server : servers) {
         const auto found = renderMs_.find(server.address.name);

@@ -44,7 +44,8 @@ public:
     /// One line about all of it.
     std::string summary() const;
     /// frames, frame_ms, skew_ms, bytes_per_frame, servers: architecture, section 9.
-    nlohmann::json json(const std::vector<net::ServerStatus>& servers) const;
+    nlohmann::json json(const std::vector<net::ServerStatus>& servers,
+                        const net::HubTotals& totals) const;
 
 private:
     std::uint64_t frames_ = 0;

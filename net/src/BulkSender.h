@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "Channel.h"
+#include "Packer.h"
 
 namespace gnomon::net {
 
@@ -19,6 +20,9 @@ struct BulkItem {
 /// Feeds a bulk channel one chunk at a time, so that what waits here costs no second copy.
 class BulkSender {
 public:
+    /// @param packer  outlives this; nullptr: everything goes as it is
+    explicit BulkSender(Packer* packer = nullptr) noexcept : packer_{packer} {}
+
     void attach(std::shared_ptr<Channel> channel) {
         channel_ = std::move(channel);
         channel_->tellDrained();
@@ -52,8 +56,14 @@ private:
         const BulkItem& item = items_.front();
         const auto rest = item.whole.bytes.subspan(offset_);
         const auto chunk = rest.first(std::min(rest.size(), chunkBytes));
-        channel_->queue(Part::of(item.head(offset_, chunk)));
-        channel_->queue({.owner = item.whole.owner, .bytes = chunk});
+        auto head = item.head(offset_, chunk);
+        const Part part{.owner = item.whole.owner, .bytes = chunk};
+        if (packer_ != nullptr) {
+            packer_->queue(*channel_, std::move(head), part);
+        } else {
+            channel_->queue(Part::of(std::move(head)));
+            channel_->queue(part);
+        }
         offset_ += chunk.size();
         waitingBytes_ -= chunk.size();
         if (offset_ == item.whole.bytes.size()) {
@@ -64,6 +74,7 @@ private:
         channel_->flush();
     }
 
+    Packer* packer_;
     std::shared_ptr<Channel> channel_;
     std::deque<BulkItem> items_;
     std::size_t offset_ = 0;

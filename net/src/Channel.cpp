@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "DeliveryRate.h"
+
 namespace gnomon::net {
 namespace {
 
@@ -52,6 +54,8 @@ Channel::Channel(tcp::socket socket, Route route, Receiver& receiver,
     error_code ignored;  // a socket that died already is found by the first read
     socket_.set_option(tcp::no_delay{true}, ignored);
     socket_.non_blocking(true, ignored);
+    const auto end = socket_.remote_endpoint(ignored);
+    toThisMachine_ = !ignored && isLoopback(end.address());
 }
 
 void Channel::read() {
@@ -180,6 +184,12 @@ Result<void> Channel::deliver(std::uint32_t type, std::span<const std::byte> bod
         return tl::unexpected{std::move(why)};
     }
     return {};
+}
+
+std::optional<double> Channel::deliveryRate() const {
+    if (closed_ || toThisMachine_) return {};
+    // Asio has no const access to the descriptor.
+    return deliveryRateOf(const_cast<tcp::socket&>(socket_).native_handle());
 }
 
 void Channel::expectBulk() {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -96,6 +97,9 @@ public:
     bool isIdle() const noexcept { return !writing_ && queue_.empty(); }
     const std::string& remote() const noexcept { return remote_; }
     TimePoint lastHeard() const noexcept { return lastHeard_; }
+    /// Bytes a second that lately reached another machine, as the system measured it while there
+    /// was always more to send; nothing where it has not.
+    std::optional<double> deliveryRate() const;
     std::uint64_t bytesSent() const noexcept { return bytesSent_; }
     std::uint64_t writes() const noexcept { return writes_; }
 
@@ -135,6 +139,7 @@ private:
     Route route_;
     Receiver* receiver_;
     std::string remote_;
+    bool toThisMachine_ = false;
 
     std::vector<std::byte> input_;
     std::size_t begin_ = 0, end_ = 0;  // unread part of input_

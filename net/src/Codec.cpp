@@ -55,11 +55,12 @@ Limit limitOf(Route route, std::uint32_t type) noexcept {
                     return {};
             }
         case Route::toServerRelay:
-            return message == payload ? upTo(mib) : Limit{};
+            return message == payload || message == packed ? upTo(mib) : Limit{};
         case Route::toRelay:
             return message == refused ? upTo(64 * kib) : Limit{};
         case Route::toServerBulk:
-            return message == payload || message == snapshot ? upTo(mib) : Limit{};
+            return message == payload || message == snapshot || message == packed ? upTo(mib)
+                                                                                  : Limit{};
         case Route::toClientControl:
             switch (message) {
                 case serverHello:
@@ -110,6 +111,8 @@ std::string_view name(MessageType type) noexcept {
             return "Payload";
         case snapshot:
             return "Snapshot";
+        case packed:
+            return "Packed";
         case refused:
             return "Refused";
         case depth:

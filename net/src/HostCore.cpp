@@ -127,7 +127,7 @@ void HostCore::refuse(std::shared_ptr<Channel> channel, const std::string& why, 
 Result<void> HostCore::received(Channel& from, MessageType type, std::span<const std::byte> body) {
     if (session_ && &from == session_->control.get()) return control(type, body);
     if (session_ && &from == session_->bulk.get()) return bulk(type, body);
-    if (session_ && &from == session_->relay.get()) return relayed(body);
+    if (session_ && &from == session_->relay.get()) return relayed(type, body);
     return greeted(from, body);
 }
 
@@ -279,6 +279,12 @@ Result<void> HostCore::control(MessageType type, std::span<const std::byte> body
 }
 
 Result<void> HostCore::bulk(MessageType type, std::span<const std::byte> body) {
+    if (type == MessageType::packed) {
+        auto whole = session_->fromClient.unpack(body);
+        if (whole) return bulk(whole->type, whole->body);
+        endSession(std::move(whole).error(), true);
+        return {};
+    }
     FrameGate& gate = *session_->gate;
     auto done = type == MessageType::payload
                     ? with<wire::Payload>(
@@ -290,7 +296,14 @@ Result<void> HostCore::bulk(MessageType type, std::span<const std::byte> body) {
     return {};
 }
 
-Result<void> HostCore::relayed(std::span<const std::byte> body) {
+Result<void> HostCore::relayed(MessageType type, std::span<const std::byte> body) {
+    if (type == MessageType::packed) {
+        auto whole = session_->fromRelay.unpack(body);
+        if (!whole) return tl::unexpected{std::move(whole).error()};
+        return relayed(whole->type, whole->body);
+    }
+    if (type != MessageType::payload)
+        return fail(Errc::protocol, "another server passes on nothing but payloads");
     auto done = with<wire::Payload>(body, [&](const wire::Payload& part) {
         return session_->gate->payload(part, FrameGate::Source::relay);
     });

@@ -61,7 +61,8 @@ private:
         std::unique_ptr<FrameGate> gate = {};
         std::shared_ptr<Channel> relay = {};  // payloads that another server passes on
         std::unique_ptr<Relays> relays = {};  // those we pass ours on to
-        BulkSender images = {};
+        Unpacker fromClient = {}, fromRelay = {};
+        BulkSender images{};
         bool joined = false;  // the main thread knows of it
     };
 
@@ -72,7 +73,7 @@ private:
     void beginSession(std::shared_ptr<Channel> control, wire::ClientHello hello);
     Result<void> control(MessageType type, std::span<const std::byte> body);
     Result<void> bulk(MessageType type, std::span<const std::byte> body);
-    Result<void> relayed(std::span<const std::byte> body);
+    Result<void> relayed(MessageType type, std::span<const std::byte> body);
     void answer(const wire::Ping& ping);
     Milliseconds silence() const;
     bool givesWay() const;

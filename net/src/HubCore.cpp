@@ -21,6 +21,7 @@ HubCore::HubCore(asio::io_context& io, const field::TypeRegistry& types, SyncOpt
       hooks_{std::move(hooks)},
       tls_{key ? std::make_shared<const TlsContext>(TlsSide::client, key) : nullptr},
       session_{types, 1},
+      packer_{options_.compress},
       watchTimer_{io},
       stopTimer_{io} {
     session_.followPayloads();
@@ -34,7 +35,7 @@ void HubCore::connect(ServerAddress address) {
     if (found != peers_.end()) {
         peer = found->get();
     } else {
-        peers_.push_back(std::make_unique<Peer>(io_, address, options_, *this, tls_));
+        peers_.push_back(std::make_unique<Peer>(io_, address, options_, *this, tls_, packer_));
         peer = peers_.back().get();
     }
     peer->open(std::move(address));
@@ -48,7 +49,10 @@ std::vector<ServerStatus> HubCore::status() const {
 }
 
 HubTotals HubCore::totals() const {
-    HubTotals totals{.frames = swappedN_, .lost = lostCount_, .rejoined = rejoinedCount_};
+    HubTotals totals{.frames = swappedN_,
+                     .sparedBytes = packer_.spared(),
+                     .lost = lostCount_,
+                     .rejoined = rejoinedCount_};
     for (const auto& peer : peers_) {
         totals.controlBytes += peer->controlBytes();
         totals.controlWrites += peer->controlWrites();

@@ -130,6 +130,7 @@ private:
     field::Aspect session_;
     field::Applied applied_;
     PayloadLedger ledger_;
+    Packer packer_;
     CaptureBoard captures_;
     std::map<std::uint64_t, std::uint64_t> digests_;  // by frame, the newest few
     bool anyDrifts_ = false;                          // the next frame asks for all Digests

@@ -53,7 +53,8 @@ void HubCore::provide(Peer& peer, Peer* relay, const std::vector<PayloadLedger::
     wire::Relay message{.token = peer.token(),
                         .host = peer.address().host,
                         .port = peer.address().port,
-                        .after = ledger_.newest()};
+                        .after = ledger_.newest(),
+                        .compress = options_.compress};
     message.uploads.reserve(missing.size());
     for (const auto& kept : missing) {
         if (kept.released == 0)

@@ -23,12 +23,13 @@ std::uint64_t randomToken() {
 }  // namespace
 
 Peer::Peer(asio::io_context& io, ServerAddress address, const SyncOptions& options,
-           PeerOwner& owner, std::shared_ptr<const TlsContext> tls)
+           PeerOwner& owner, std::shared_ptr<const TlsContext> tls, Packer& packer)
     : address_{std::move(address)},
       options_{options},
       owner_{owner},
       tls_{std::move(tls)},
       dialer_{io, tls_ != nullptr},
+      bulk_{&packer},
       timer_{io},
       pingTimer_{io} {}
 

@@ -65,7 +65,7 @@ class Peer final : public Receiver {
 public:
     /// @param tls  null: in the clear, and to this machine only
     Peer(asio::io_context& io, ServerAddress address, const SyncOptions& options, PeerOwner& owner,
-         std::shared_ptr<const TlsContext> tls);
+         std::shared_ptr<const TlsContext> tls, Packer& packer);
 
     /// Connects now; a connection to another address ends.
     void open(ServerAddress address);

@@ -111,17 +111,18 @@ void Relays::pump(Child& child) {
     if (here.size() <= child.offset) return;
     const auto rest = here.subspan(child.offset);
     const auto chunk = rest.first(std::min(rest.size(), chunkBytes));
-    child.channel->queue(Part::of(packet(wire::Payload{.hash = item.hash,
-                                                       .serial = item.serial,
-                                                       .total = item.total,
-                                                       .offset = child.offset,
-                                                       .tail = chunk})));
-    if (item.whole) {
-        const auto owner = std::make_shared<const field::Payload>(item.whole);
-        child.channel->queue({.owner = owner, .bytes = chunk});
-    } else {  // what is unfinished may move
-        child.channel->queue(Part::of({chunk.begin(), chunk.end()}));
-    }
+    // What is unfinished may move.
+    const Part part = item.whole ? Part{.owner = std::make_shared<const field::Payload>(item.whole),
+                                        .bytes = chunk}
+                                 : Part::of({chunk.begin(), chunk.end()});
+    const Compress use = child.relay.compress;
+    packers_.try_emplace(use, use).first->second.queue(*child.channel,
+                                                       packet(wire::Payload{.hash = item.hash,
+                                                                            .serial = item.serial,
+                                                                            .total = item.total,
+                                                                            .offset = child.offset,
+                                                                            .tail = chunk}),
+                                                       part);
     child.offset += chunk.size();
     if (child.offset == item.total) {
         child.items.pop_front();

@@ -2,12 +2,14 @@
 
 #include <deque>
 #include <list>
+#include <map>
 #include <memory>
 #include <unordered_set>
 
 #include "Channel.h"
 #include "Dialer.h"
 #include "FrameGate.h"
+#include "Packer.h"
 
 namespace gnomon::net {
 
@@ -66,6 +68,7 @@ private:
     const FrameGate& gate_;
     const Lost lost_;
     std::list<Child> children_;
+    std::map<Compress, Packer> packers_;
     // Says whether this still lives when a callback comes.
     std::shared_ptr<const bool> alive_ = std::make_shared<const bool>(true);
 };

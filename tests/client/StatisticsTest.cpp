@@ -35,7 +35,7 @@ TEST(Statistics, TellWhatTheFramesWereLike) {
             servers, now);
         EXPECT_EQ(statistics.line(now).has_value(), i == 50 || i == 100) << i;
     }
-    const auto json = statistics.json(servers);
+    const auto json = statistics.json(servers, {});
     EXPECT_EQ(json["frames"], 101);
     EXPECT_NEAR(json["frame_ms"]["median"].get<double>(), 20.0, 1e-3);
     EXPECT_NEAR(json["frame_ms"]["max"].get<double>(), 20.0, 1e-3);

@@ -148,8 +148,8 @@ constexpr Broken brokenWalls[] = {
      .from = "\"std\"",
      .to = "\"csm+pfc\"",
      .error = "wall.toml:8:13: shadow: technique is \"csm+pfc\", must have a filter after the "
-              "'+': \"hard\", \"pcf\", \"ppcf\", \"square\", \"vsm\" or "
-              "\"evsm\", did you mean \"pcf\"?"},
+              "'+': \"hard\", \"pcf\", \"ppcf\", \"rotated\", \"hardware\", \"square\", "
+              "\"vsm\", \"evsm\", \"vsm16\" or \"evsm16\", did you mean \"pcf\"?"},
     {.name = "samplesThree",
      .from = "[[screen]]",
      .to = "[render]\nsamples = 3\n[[screen]]",

@@ -128,8 +128,46 @@ std::string grid(int side) {
     return lines;
 }
 
+/// A server behind a link of so many Mbit/s.
+class SlowLink : public Link {
+protected:
+    void slow(int megabits) {
+        wire(*client, "slow0", "10.99.2.1/24", *far, "slow1", "10.99.2.2/24");
+        const Inside inside{*client};
+        command({"tc", "qdisc", "add", "dev", "slow0", "root", "tbf", "rate",
+                 fmt::format("{}mbit", megabits), "burst", "16kb", "latency", "200ms"});
+    }
+    std::string uncompressed(const std::string& file) {
+        std::ofstream{file, std::ios::app}
+            << "compress = \"never\"\n";  // in [cluster], the last table
+        return file;
+    }
+};
+
+// What it carries is compressed, and the rest of the wall gets its own as it is.
+TEST_F(SlowLink, CarriesWhatIsCompressed) {
+    slow(200);
+    startServers();
+    const auto scene = folder.write("grid.obj", grid(300));
+    std::uint64_t sent[2] = {};
+    for (const bool compress : {false, true}) {
+        auto file = wall("timeout = 20.0");
+        if (!compress) file = uncompressed(file);
+        const auto run = this->run(file, {"--frames", "100", "--scene", scene});
+        expectWhole(*run, 100);
+        sent[compress ? 1 : 0] = told()["sent"]["bulk_bytes"].get<std::uint64_t>();
+        const auto spared = told()["sent"]["spared_bytes"].get<std::uint64_t>();
+        EXPECT_EQ(spared > 0, compress);
+        std::printf("[  FIGURES ] %.2f MB sent, %.2f spared\n",
+                    static_cast<double>(sent[compress]) * 1e-6, static_cast<double>(spared) * 1e-6);
+    }
+    // To one server of two.
+    EXPECT_LT(sent[1], sent[0] * 9 / 10);
+    EXPECT_GT(sent[1], sent[0] / 2);
+}
+
 // A server behind a slow link loads for seconds; the wall does not wait for it.
-TEST_F(Link, OfALimitedRateHoldsNobodyElseUp) {
+TEST_F(SlowLink, OfALimitedRateHoldsNobodyElseUp) {
     // So that there are as many frames a second as a wall that draws may have: those of one that
     // does not would fill the slow link alone.
     {
@@ -137,15 +175,10 @@ TEST_F(Link, OfALimitedRateHoldsNobodyElseUp) {
         command({"ip", "link", "delete", "wire0"});
     }
     const TunLink good{*client, "10.99.1.1/24", *nearBy, "10.99.1.2/24", {.delay = 2ms}};
-    wire(*client, "slow0", "10.99.2.1/24", *far, "slow1", "10.99.2.2/24");
-    {
-        const Inside inside{*client};
-        command({"tc", "qdisc", "add", "dev", "slow0", "root", "tbf", "rate", "8mbit", "burst",
-                 "16kb", "latency", "200ms"});
-    }
+    slow(8);
     startServers();
     const auto scene = folder.write("grid.obj", grid(160));
-    const auto run = this->run(wall("timeout = 1.0"), {"--scene", scene});
+    const auto run = this->run(uncompressed(wall("timeout = 1.0")), {"--scene", scene});
     ASSERT_TRUE(run->says("fps")) << run->output();
     servers[1].reset();
     ASSERT_TRUE(run->says("goes on without " + right())) << run->output();

@@ -63,6 +63,8 @@ std::vector<Sample> samples() {
                wire::Payload{.hash = hash, .serial = 1, .total = 100, .offset = 50, .tail = tail}),
         sample("snapshot",
                wire::Snapshot{.n = 5, .time = 2, .total = 50, .offset = 0, .tail = tail}),
+        sample("packed",
+               wire::Packed{.inner = 16, .size = 100, .head = someBytes(40), .tail = tail}),
         sample("snapshotBody",
                wire::SnapshotBody{.needed = {{.hash = hash, .size = 9}}, .tail = tail}),
         sample("relay",

@@ -37,6 +37,18 @@ std::string_view name(Launch how) noexcept {
     return "?";
 }
 
+std::string_view name(Compress use) noexcept {
+    switch (use) {
+        case Compress::automatic:
+            return "auto";
+        case Compress::never:
+            return "never";
+        case Compress::always:
+            return "always";
+    }
+    return "?";
+}
+
 std::string_view name(OnTimeout action) noexcept {
     return action == OnTimeout::drop ? "drop" : "wait";
 }

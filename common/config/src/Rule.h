@@ -48,6 +48,7 @@ inline std::string expectation(const Rule&, Eye) { return {}; }
 inline std::string expectation(const Rule&, OnTimeout) { return {}; }
 inline std::string expectation(const Rule&, DepthRange) { return {}; }
 inline std::string expectation(const Rule&, Launch) { return {}; }
+inline std::string expectation(const Rule&, Compress) { return {}; }
 inline std::string expectation(const Rule& rule, int v) { return rule.expectation(double(v)); }
 inline std::string expectation(const Rule& rule, double v) { return rule.expectation(v); }
 inline std::string expectation(const Rule& rule, const std::string& v) {

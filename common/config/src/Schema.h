@@ -73,6 +73,7 @@ struct Schema<Cluster> {
         Field{"server", &Cluster::server, Rule{.text = programExpectation}},
         Field{"options", &Cluster::options, Rule{.text = titleExpectation}},
         Field{"relay", &Cluster::relay, Rule{.min = 0, .max = 64, .unit = "servers"}},
+        Field{"compress", &Cluster::compress, anything},
     };
 };
 

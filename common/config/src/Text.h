@@ -23,6 +23,7 @@ inline std::string tomlText(Eye value) { return tomlText(name(value)); }
 inline std::string tomlText(OnTimeout value) { return tomlText(name(value)); }
 inline std::string tomlText(DepthRange value) { return tomlText(name(value)); }
 inline std::string tomlText(Launch value) { return tomlText(name(value)); }
+inline std::string tomlText(Compress value) { return tomlText(name(value)); }
 
 namespace detail {
 std::string bracketed(const std::vector<std::string>& parts);

@@ -64,6 +64,11 @@ std::string read(const Node& node, DepthRange& value) {
                     value);
 }
 
+std::string read(const Node& node, Compress& value) {
+    return readWord(node, std::array{Compress::automatic, Compress::never, Compress::always},
+                    value);
+}
+
 std::string read(const Node& node, Launch& value) {
     return readWord(node, std::array{Launch::none, Launch::ssh, Launch::slurm, Launch::mpi}, value);
 }

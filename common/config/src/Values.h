@@ -21,6 +21,7 @@ std::string read(const Node& node, Eye& value);
 std::string read(const Node& node, OnTimeout& value);
 std::string read(const Node& node, DepthRange& value);
 std::string read(const Node& node, Launch& value);
+std::string read(const Node& node, Compress& value);
 /// Two colours, top and bottom, or one for both.
 std::string read(const Node& node, std::array<Colour, 2>& value);
 /// One number or a list.

@@ -158,6 +158,7 @@ struct Relay {
     std::uint16_t port = 0;
     std::uint64_t after = 0;                  ///< uploads with a later serial are passed on
     std::vector<std::uint64_t> uploads = {};  ///< serials of those that are passed on besides
+    Compress compress = Compress::automatic;  ///< what is passed on
 
     template <class Self, class Io>
     static void fields(Self& self, Io& io) {
@@ -166,6 +167,7 @@ struct Relay {
         io(self.port);
         io(self.after);
         io(self.uploads);
+        io(self.compress);
     }
 };
 
@@ -213,6 +215,31 @@ struct Payload {
         return tail.empty() || offset > total || tail.size() > total - offset
                    ? "a part that lies outside its payload"
                    : nullptr;
+    }
+};
+
+/// Bulk, relay. A Payload or Snapshot whose tail is compressed: an LZ4 block.
+struct Packed {
+    static constexpr MessageType type = MessageType::packed;
+    static constexpr std::string_view name = "Packed";
+    static constexpr bool hasTail = true;
+    std::uint32_t inner = 0;           ///< type of the message
+    std::uint32_t size = 0;            ///< bytes of its tail
+    std::vector<std::byte> head = {};  ///< its fields
+    std::span<const std::byte> tail = {};
+
+    template <class Self, class Io>
+    static void fields(Self& self, Io& io) {
+        io(self.inner);
+        io(self.size);
+        io(self.head);
+    }
+    const char* wrong() const {
+        if (inner != static_cast<std::uint32_t>(MessageType::payload) &&
+            inner != static_cast<std::uint32_t>(MessageType::snapshot))
+            return "neither a Payload nor a Snapshot is packed";
+        if (head.size() > 64) return "the packed message's fields are too long";
+        return size == 0 || size > chunkBytes ? "a packed chunk's size is out of range" : nullptr;
     }
 };
 

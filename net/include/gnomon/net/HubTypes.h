@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gnomon/field/Aspect.h>
+#include <gnomon/net/MessageType.h>
 #include <gnomon/net/ServerEvent.h>
 
 #include <chrono>
@@ -33,6 +34,7 @@ struct SyncOptions {
     /// Payloads are sent to so many servers, each of which passes them on to as many, and so on;
     /// 0: we send them to all.
     int relay = 0;
+    Compress compress = Compress::automatic;
 };
 
 /// Callbacks, one at a time, on the application's thread within its calls or on the hub's own.
@@ -112,6 +114,7 @@ struct HubTotals {
     std::uint64_t frames = 0;
     std::uint64_t controlBytes = 0;
     std::uint64_t bulkBytes = 0;
+    std::uint64_t sparedBytes = 0;    ///< of bulk, by compression
     std::uint64_t controlWrites = 0;  ///< calls of the operating system's send
     std::uint32_t lost = 0;
     std::uint32_t rejoined = 0;

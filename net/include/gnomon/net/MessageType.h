@@ -18,6 +18,7 @@ enum class MessageType : std::uint32_t {
     relayEnd = 8,
     payload = 16,
     snapshot = 17,
+    packed = 18,
     serverHello = 64,
     refused = 65,
     depth = 66,
@@ -40,6 +41,14 @@ enum class Route : std::uint8_t {
     toRelay,        // back to that one
     toClientControl,
     toClientBulk,
+};
+
+/// Whether payloads and snapshots are compressed on their way.
+enum class Compress : std::uint8_t {
+    automatic,  ///< where a connection is slower than the compression
+    never,
+    always,
+    last = always,
 };
 
 /// Most bytes a chunk of a payload, snapshot or image carries.

@@ -26,11 +26,13 @@ enum class Eye : std::uint8_t { mono, left, right };
 enum class OnTimeout : std::uint8_t { drop, wait };
 enum class DepthRange : std::uint8_t { off, previous, exact };
 enum class Launch : std::uint8_t { none, ssh, slurm, mpi };
+enum class Compress : std::uint8_t { automatic, never, always };
 
 std::string_view name(Eye eye) noexcept;
 std::string_view name(OnTimeout action) noexcept;
 std::string_view name(DepthRange use) noexcept;
 std::string_view name(Launch how) noexcept;
+std::string_view name(Compress use) noexcept;
 
 /// Port of a server on another machine unless the file says otherwise.
 inline constexpr int defaultPort = 7430;
@@ -59,6 +61,7 @@ struct Cluster {
     std::string server = "gnomon-server";   ///< the program over there
     std::vector<std::string> options = {};  ///< for ssh, srun or mpirun, before anything else
     int relay = 0;  ///< servers that anyone sends payloads to; 0: the client sends to all
+    Compress compress = Compress::automatic;  ///< of payloads and snapshots
     Origin origin = {};
     bool operator==(const Cluster&) const = default;
 };
