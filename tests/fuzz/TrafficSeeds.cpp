@@ -95,14 +95,14 @@ net::HubHooks hooks() {
 }
 
 /// A short session: frames of all kinds, payloads that come and go, a picture, a goodbye.
-Pieces sessionOf(const net::SharedKey& key) {
+Pieces sessionOf(const net::SharedKey& key, net::Compress compress = net::Compress::never) {
     Server server{key};
     Relay relay{server.port()};
     {
         const auto types = sceneTypes();
         const auto payloads = knownPayloads();
         field::Aspect aspect{types, 2};
-        net::ClientHub hub{types, {.digestEvery = 2}, hooks(), key};
+        net::ClientHub hub{types, {.digestEvery = 2, .compress = compress}, hooks(), key};
         const auto top = scene::makeNode<scene::Transform>(aspect, "top");
         const auto shape = scene::makeNode<scene::Geometry>(aspect, "shape");
         field::edit(top.node)->addChild(shape.node);
@@ -168,6 +168,15 @@ void addTrafficSeeds(const Seeds& seeds) {
                   Script{hub.begin(),
                          hub.begin() + static_cast<std::ptrdiff_t>(std::min(steps, hub.size()))});
     }
+
+    Script packed;
+    forEachMessage(sessionOf(nullptr, net::Compress::always),
+                   [&](const Relay::Piece& piece, std::vector<std::byte> message) {
+                       if (piece.toServer)
+                           packed.push_back({.kind = static_cast<std::uint8_t>(piece.connection),
+                                             .bytes = std::move(message)});
+                   });
+    seeds.add("host", "session-packed", packed);
 
     Script stranger;
     for (const auto& piece : sessionOf(knownKey()))
