@@ -180,6 +180,10 @@ void WallBuilder::addWindow(const std::string& server, const config::Window& win
     e->monitor = window.monitor;
     e->gpu = gpu;
     e->samples = config_.render.samples;
+    // One that hangs holds up all of its group: a wall that goes on without late servers cannot
+    // have that unless it says so.
+    e->swapGroup =
+        config_.sync.swapGroup.value_or(config_.sync.onTimeout == config::OnTimeout::wait);
     e->viewports.assign(std::move(viewports));
     made_.windows.emplace_back(made);
 }

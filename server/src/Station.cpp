@@ -15,6 +15,7 @@ Station::~Station() {
 void Station::attach(const field::Aspect& scene, std::function<void(std::string)> report) {
     context_->makeCurrent();
     renderer_.reset();
+    report_ = report;
     renderer_ = std::make_unique<render::Renderer>(*context_, scene, std::move(report));
 }
 
@@ -48,6 +49,7 @@ Result<gl::Window*> Station::windowOf(const scene::Window& window) {
     using Traits = field::FieldTraits<glm::ivec2>;
     Traits::write(shape, window.size);
     Traits::write(shape, window.position);
+    shape.scalar(window.swapGroup.get());
     shape.scalar(window.fullscreen.get());
     shape.scalar(window.monitor.get());
     Shown& shown = windows_[window.id()];
@@ -62,9 +64,12 @@ Result<gl::Window*> Station::windowOf(const scene::Window& window) {
         .monitor = window.fullscreen ? window.monitor.get() : -1};
     options.position = gl::WindowPosition{window.position->x, window.position->y};
     options.decorated = false;
+    options.swapGroup = window.swapGroup;
     auto opened = gl::openWindow(*context_, options);
     if (!opened) return tl::unexpected{std::move(opened).error()};
     (*opened)->setSwapInterval(1);
+    if (const auto& text = (*opened)->swapGroup(); !text.empty() && report_)
+        report_(options.title + ": " + text);
     shown = {.window = std::move(*opened), .shape = std::move(now)};
     return shown.window.get();
 }

@@ -47,6 +47,7 @@ private:
         std::vector<std::byte> shape = {};  ///< what it was opened as
     };
     std::unique_ptr<gl::Context> context_;
+    std::function<void(std::string)> report_;
     std::unique_ptr<render::Renderer> renderer_;
     std::map<field::Id, Shown> windows_;
 };

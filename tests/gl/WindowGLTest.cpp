@@ -85,6 +85,7 @@ TEST_F(WindowGLTest, AWindowShowsATextureUprightAndAtOnce) {
     EXPECT_EQ(value(run, "noTexture"), "window: there is no texture 12345");
     EXPECT_PRED_FORMAT2(contains, value(run, "depthTexture"), "a 2D colour texture is needed");
     EXPECT_EQ(value(run, "fullscreen"), "640x480");
+    EXPECT_EQ(value(run, "swapGroup"), "the driver offers no swap groups (GLX_NV_swap_group)");
     EXPECT_PRED_FORMAT2(contains, value(run, "noMonitor"),
                         "there is no monitor 7; monitors found: 0: ");
     EXPECT_PRED_FORMAT2(contains, value(run, "noMonitor"), "640x480 at 0,0");

@@ -188,7 +188,9 @@ void probeWindows(const std::string& screenshot) {
         probePicture(*context, *window, screenshot);
         probeEvents(*window);
     }
-    const auto full = orThrow(openWindow(*context, {.fullscreen = true, .monitor = 0}));
+    const auto full =
+        orThrow(openWindow(*context, {.fullscreen = true, .monitor = 0, .swapGroup = true}));
+    fmt::print("swapGroup {}\n", full->swapGroup());
     fmt::print("fullscreen {}x{}\n", full->widthPixels(), full->heightPixels());
     for (const auto& message : context->takeDebugErrors()) fmt::print("debug {}\n", message);
 }

@@ -60,6 +60,7 @@ struct Schema<Sync> {
         Field{"start_timeout", &Sync::startTimeout, seconds},
         Field{"on_timeout", &Sync::onTimeout, anything},
         Field{"pipeline", &Sync::pipeline, Rule{.min = 0, .max = 2, .unit = "frames"}},
+        Field{"swap_group", &Sync::swapGroup, anything},
     };
 };
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "Glfw.h"
+#include "GlxSwapGroup.h"
 
 namespace gnomon::gl {
 namespace {
@@ -21,7 +22,7 @@ public:
     GlfwWindow(const GlfwWindow&) = delete;
     GlfwWindow& operator=(const GlfwWindow&) = delete;
 
-    Result<void> load();
+    Result<void> load(bool swapGroup);
     void listen();
 
     Result<void> present(GLuint texture, int width, int height) override;
@@ -34,6 +35,7 @@ public:
         glfwPollEvents();
         return std::exchange(events_, {});
     }
+    const std::string& swapGroup() const override { return swapGroup_; }
     int widthPixels() const override { return sizePixels().first; }
     int heightPixels() const override { return sizePixels().second; }
 
@@ -52,13 +54,14 @@ private:
     GLFWwindow* window_ = nullptr;
     Api api_ = {};  // of the window's own context
     Framebuffer readFrom_ = {};
+    std::string swapGroup_ = {};
     std::vector<InputEvent> events_ = {};
     // As of the last motion, not as of now: a click belongs to where the cursor was at the time.
     double cursorX_ = 0;
     double cursorY_ = 0;
 };
 
-Result<void> GlfwWindow::load() {
+Result<void> GlfwWindow::load(bool swapGroup) {
     glfwMakeContextCurrent(window_);
     auto loaded = loadApi([](const char* name) { return glfwGetProcAddress(name); });
     if (!loaded) {
@@ -68,6 +71,7 @@ Result<void> GlfwWindow::load() {
     api_ = *std::move(loaded);
     readFrom_ = Framebuffer{api_};
     readFrom_.label("window source");
+    if (swapGroup) swapGroup_ = joinSwapGroup(glxSwapGroups(window_)).text;
     context_.makeCurrent();
     return {};
 }
@@ -221,7 +225,8 @@ Result<std::unique_ptr<Window>> openWindow(Context& context, const WindowOptions
         return fail(Errc::context, fmt::format("window \"{}\" ({}x{}): {}", options.title,
                                                place->width, place->height, glfwProblem()));
     auto window = std::make_unique<GlfwWindow>(*glfw, handle);
-    if (auto loaded = window->load(); !loaded) return tl::unexpected{std::move(loaded).error()};
+    if (auto loaded = window->load(options.swapGroup); !loaded)
+        return tl::unexpected{std::move(loaded).error()};
     window->listen();
     if (!options.cursorVisible) glfwSetInputMode(handle, GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
     if (place->position) glfwSetWindowPos(handle, place->position->x, place->position->y);

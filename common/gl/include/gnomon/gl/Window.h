@@ -27,6 +27,9 @@ struct WindowOptions {
     std::optional<WindowPosition> position = {};
     bool decorated = true;
     bool cursorVisible = true;
+    /// Shall swap at one refresh with the other windows of the wall that want to, where the driver
+    /// can (GLX_NV_swap_group). A window that does not swap then holds up all others.
+    bool swapGroup = false;
 };
 
 struct InputEvent {
@@ -61,6 +64,9 @@ public:
     /// What happened in the window since the last call, oldest first. Motions without anything
     /// between them are one event. Never blocks.
     virtual std::vector<InputEvent> takeEvents() = 0;
+
+    /// What it swaps with, or why with nothing; empty where that was not asked for.
+    virtual const std::string& swapGroup() const = 0;
 
     virtual int widthPixels() const = 0;
     virtual int heightPixels() const = 0;

@@ -152,6 +152,7 @@ public:
     Field<std::int32_t> gpu{-1};     ///< -1: the server's
     Field<std::int32_t> samples{1};  ///< multisampling, 1 is off
     MultiField<Ref<Viewport>> viewports;
+    Field<bool> swapGroup;  ///< swaps with all others that do, where the driver can
     static constexpr auto fields() {
         return std::tuple{entry("server", &Window::server),
                           entry("title", &Window::title),
@@ -161,7 +162,8 @@ public:
                           entry("monitor", &Window::monitor),
                           entry("gpu", &Window::gpu),
                           entry("samples", &Window::samples),
-                          entry("viewports", &Window::viewports)};
+                          entry("viewports", &Window::viewports),
+                          entry("swapGroup", &Window::swapGroup)};
     }
 };
 
