@@ -112,6 +112,32 @@ TEST_F(PageGLTest, AViewThatSeesAPartDrawsItsPagesAlone) {
     EXPECT_EQ(stats.pagesDrawn + stats.pagesUnseen, 16U);
 }
 
+// A fit makes no such maps; another program's may.
+TEST_F(PageGLTest, SaysWhenThereIsNoRoomForALightsMaps) {
+    draw(seen);
+    const scene::ShadowState* fitted = nullptr;
+    server.forEach([&](const field::FieldContainer& container) {
+        if (const auto* state = dynamic_cast<const scene::ShadowState*>(&container)) fitted = state;
+    });
+    ASSERT_NE(fitted, nullptr);
+    {
+        auto e = edit(app.create<scene::ShadowState>());
+        e->light = sun.node;
+        e->group = fitted->group.get();
+        e->mapSize = 8192;
+        e->pageSize = 64;
+        e->clipFromWorld.assign({math::dmat4{1.0}});
+    }
+    draw(seen);
+    ASSERT_EQ(complaints.size(), 1U);
+    EXPECT_EQ(complaints.front(),
+              "1 of 2 lights shadow nothing: no room for their maps (at most 128 maps and 4096 "
+              "pages)");
+    draw(seen);
+    EXPECT_EQ(complaints.size(), 1U) << "said once";
+    complaints.clear();
+}
+
 TEST_F(PageGLTest, CountsDoNotDependOnMood) {
     const auto stats = draw(seen);
     EXPECT_EQ(stats.triangles, 14U);

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gnomon/render/Renderer.h>
 #include <gnomon/scene/CameraView.h>
 #include <gnomon/shadow/ShadowMaps.h>
@@ -402,10 +403,17 @@ shadow::ShadowStatistics Renderer::Parts::prepareMaps(const Seen& seen,
     const auto* shadowed = dynamic_cast<const scene::ShadowViewport*>(&viewport);
     if (shadowed != nullptr && shadowed->overrideBias)
         offset = {.factor = shadowed->offFactor, .units = shadowed->offBias};
-    return maps.prepare(
+    const auto done = maps.prepare(
         seen.states,
         {.seen = seen.drawer->seenBy(seen.camera.view), .offset = offset ? &*offset : nullptr},
         *seen.drawer);
+    if (done.refused > 0)
+        warnOnce(
+            fmt::format("{} of {} lights shadow nothing: no room for their maps (at most {} "
+                        "maps and {} pages)",
+                        done.refused, seen.states.size(), shadow::ShadowMaps::maxMaps,
+                        shadow::ShadowMaps::maxTableEntries));
+    return done;
 }
 
 void Renderer::Parts::trace(const Seen& seen, const Lights::Uploaded& lit, RayShadows& into,

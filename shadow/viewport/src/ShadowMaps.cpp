@@ -301,6 +301,7 @@ ShadowStatistics ShadowMaps::prepare(std::span<const scene::ShadowState* const> 
     for (const scene::ShadowState* state : states) {
         const int mapSize = state->mapSize;
         const int pageSize = state->pageSize;
+        ++done.refused;  // until it has its maps
         if (pageSize <= 0 || mapSize < pageSize || mapSize % pageSize != 0 || mapSize > 65536)
             continue;
         done.degenerate += state->degenerate ? 1 : 0;
@@ -313,6 +314,7 @@ ShadowStatistics ShadowMaps::prepare(std::span<const scene::ShadowState* const> 
         Pool& pagePool = pool(pageSize, filter == nullptr ? nullptr : filter->pyramid);
         if (bound_ != nullptr && bound_ != &pagePool) continue;
         bound_ = &pagePool;
+        --done.refused;
         ranges_[state->light->id] = {.first = static_cast<std::uint32_t>(blocks_.size()),
                                      .count = static_cast<std::uint32_t>(maps)};
         Frame frame{

@@ -47,6 +47,7 @@ struct ShadowStatistics {
     std::uint64_t triangles = 0;
     std::uint64_t bytes = 0;  ///< of all pages held
     int degenerate = 0;
+    int refused = 0;  ///< lights whose maps there is no room for: they shadow nothing
 };
 
 /// The maps of all lights that one server looks up: one array of pages a page size, one table.
