@@ -70,9 +70,7 @@ void Calibration::trace() {
     scene::FlatScene flat{aspect};
     flat.update(viewport->root, {}, {});
     truth::RayScene rays{aspect};
-    const math::Box bounds = flat.bounds();
-    const math::dvec3 eye = camera.view.eyeWorld();
-    rays.update(flat, glm::round(bounds.empty() ? eye : glm::clamp(eye, bounds.min, bounds.max)));
+    rays.update(flat, truth::originFor(flat.bounds(), camera.view.eyeWorld()));
     truth_ = truth::shadowTruth(rays, camera.view, light_,
                                 {.width = pixels.width,
                                  .height = pixels.height,

@@ -35,6 +35,8 @@ void measureTechnique(config::Config& wall, const RunOptions& options, Console& 
                      .lights = options.lights,
                      .shadow = options.shadow,
                      .wall = options.config};
+    // Where the servers draw, if they do.
+    if (options.backend != "none") shot.backend = options.backend;
     const auto& tiles = wall.screens.front().tiles;
     const auto canvas = orThrow(config::canvas(wall, 0));
     const auto tile = options.tile.value_or(config::Cells{canvas.tileSize[0], canvas.tileSize[1]});

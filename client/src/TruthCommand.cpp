@@ -58,7 +58,7 @@ int traceTruth(const TruthArguments& arguments) {
     });
     GNOMON_EXPECTS(use != uses.end(), "a light that is on is in the flat scene");
     truth::RayScene rays{aspect};
-    rays.update(flat, glm::round(camera.view.eyeWorld()));
+    rays.update(flat, truth::originFor(flat.bounds(), camera.view.eyeWorld()));
     const auto truth =
         truth::shadowTruth(rays, camera.view, shadow_fit::lightShape(*use),
                            {.width = size.x,

@@ -61,8 +61,9 @@ BenchView Reference::resolved(const BenchView& view, std::array<int, 2> size) co
 
 void Reference::lookFrom(const math::View& view) {
     // Along a path the first eye stays the origin: it is close enough, and costs nothing.
-    if (placed_ && glm::distance(rays_.origin(), view.eyeWorld()) < 64.0) return;
-    rays_.update(flat_, glm::round(view.eyeWorld()));
+    const math::dvec3 origin = truth::originFor(flat_.bounds(), view.eyeWorld());
+    if (placed_ && glm::distance(rays_.origin(), origin) < 64.0) return;
+    rays_.update(flat_, origin);
     placed_ = true;
 }
 

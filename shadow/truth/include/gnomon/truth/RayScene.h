@@ -31,6 +31,12 @@ private:
     alignas(32) int valid_[size] = {};
 };
 
+/// What rays are traced relative to, where floats are finest: the eye, or the place of the scene
+/// nearest to an eye far away from it. Whole metres, world.
+inline math::dvec3 originFor(const math::Box& scene, const math::dvec3& eye) noexcept {
+    return glm::round(scene.empty() ? eye : glm::clamp(eye, scene.min, scene.max));
+}
+
 /// A flat scene for exact rays: a two-level tree, geometries below and their uses above. What moves
 /// refits the upper level; only new geometry builds anything.
 ///
