@@ -1,6 +1,8 @@
 // What a change list says, in how many bytes and in which order.
 #include <malloc.h>
 
+#include <cmath>
+
 #include "TestTypes.h"
 
 namespace gnomon::field::test {
@@ -152,6 +154,33 @@ TEST(ChangeList, ASnapshotMakesAnEqualAspect) {
     Aspect second{pair.types, 0};
     expectApplied(second.apply(joiner.snapshot()));
     EXPECT_EQ(second.digest(), pair.source.digest());
+}
+
+// What compares equal is not the same: whoever joins later would keep the other zero.
+TEST(ChangeList, ZerosKeepTheirSign) {
+    Pair pair;
+    const Item& item = pair.source.create<Item>();
+    edit(item)->number = 7;
+    pair.exchange();
+    edit(item)->weight = -0.0;  // from 1.5
+    pair.exchange();
+    edit(item)->weight = 0.0;  // equal: not sent, and not written here
+    EXPECT_TRUE(pair.exchange().empty());
+    pair.expectEqual();
+
+    // 0.0 before, here and there; then another value, then the other zero.
+    Aspect first{pair.types, 0};
+    expectApplied(first.apply(pair.source.snapshot()));
+    EXPECT_EQ(first.digest(), pair.source.digest());
+    const auto* copy = first.get(Ref<Item>{item.id()});
+    ASSERT_NE(copy, nullptr);
+    EXPECT_TRUE(std::signbit(copy->weight.get()));
+    edit(item)->weight = 1.0;
+    edit(item)->weight = 0.0;
+    const auto list = pair.source.commit();
+    expectApplied(first.apply(list));  // holds -0.0
+    EXPECT_FALSE(std::signbit(copy->weight.get()));
+    EXPECT_EQ(first.digest(), pair.source.digest());
 }
 
 TEST(ChangeList, WhatCameAndWentLeavesNothing) {

@@ -40,10 +40,10 @@ void makeRandomPredictable() {
                                     .add = nullptr,
                                     .pseudorand = &predictable,
                                     .status = &isSeeded};
-#pragma clang diagnostic push
-#pragma clang diagnostic ignored "-Wdeprecated-declarations"
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
     RAND_set_rand_method(&method);
-#pragma clang diagnostic pop
+#pragma GCC diagnostic pop
 }
 
 std::shared_ptr<const TlsContext> contextOf(TlsSide side, char digit) {

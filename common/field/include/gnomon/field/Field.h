@@ -91,7 +91,13 @@ public:
     bool takeTouched() noexcept { return std::exchange(touched_, false); }
     void flushUses(UseLog& log) { uses_.flush(log); }
     void write(Writer& to, bool /*whole*/) const { FieldTraits<T>::write(to, value_); }
-    void read(Reader& from) { *this = FieldTraits<T>::read(from); }
+    /// Kept also where it compares equal: 0.0 and -0.0 are two values to a digest.
+    void read(Reader& from) {
+        T value = FieldTraits<T>::read(from);
+        uses_.swapped(value_, value);
+        value_ = std::move(value);
+        touched_ = true;
+    }
     void clearRange() noexcept {}
     void dropUses() {
         if constexpr (detail::counted<T>) uses_.swapped(value_, T{});
