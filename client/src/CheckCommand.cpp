@@ -89,9 +89,8 @@ int reach(const config::Config& wall, const CheckOptions& options) {
                                : "is there");
     }
     const auto asked = static_cast<std::size_t>(
-        std::count_if(wall.servers.begin(), wall.servers.end(), [](const config::Server& server) {
-            return !config::isLocal(server.host);
-        }));
+        std::count_if(wall.servers.begin(), wall.servers.end(),
+                      [](const config::Server& server) { return !config::isLocal(server.host); }));
     if (good.size() < asked)
         throw Failure{Errc::disconnected, fmt::format("{} of {} servers on other machines cannot "
                                                       "be used",

@@ -12,9 +12,8 @@ Result<KeyFile> findKeyFile(const config::Config& config, const ApplicationOptio
     if (config.cluster.key)
         return KeyFile{.file = std::filesystem::absolute(config::keyPath(config.cluster))};
     const auto& servers = config.servers;
-    if (std::all_of(servers.begin(), servers.end(), [](const config::Server& server) {
-            return config::isLocal(server.host);
-        }))
+    if (std::all_of(servers.begin(), servers.end(),
+                    [](const config::Server& server) { return config::isLocal(server.host); }))
         return KeyFile{};
     const auto usual = net::defaultKeyFile();
     std::error_code ec;
@@ -40,9 +39,8 @@ Result<net::SharedKey> loadKey(const KeyFile& file) {
 }
 
 net::ServerAddress addressOf(const config::Config& config, const config::Server& server) {
-    net::ServerAddress address{.name = server.name,
-                               .host = server.host,
-                               .port = static_cast<std::uint16_t>(server.port)};
+    net::ServerAddress address{
+        .name = server.name, .host = server.host, .port = static_cast<std::uint16_t>(server.port)};
     if (config::isLookedUp(server)) address.lookup = config.cluster.lookup.value();
     return address;
 }

@@ -160,8 +160,7 @@ private:
     /// False where a signal came first.
     bool start(const Interrupt& interrupt) {
         for (const auto& server : app_.config().servers)
-            if (isAwaited(app_.config(), server))
-                console_.line(expectedOf(app_.config(), server));
+            if (isAwaited(app_.config(), server)) console_.line(expectedOf(app_.config(), server));
         auto said = Clock::now();
         std::string before;
         const auto progress = [&](const std::vector<net::ServerStatus>& servers) {

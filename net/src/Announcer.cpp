@@ -57,24 +57,22 @@ Announcer::Announcer(asio::io_context& io, AnnouncerOptions options)
     if (answers_.open(udp::v4(), ec) || answers_.bind({listening_, 0}, ec) ||
         answers_.non_blocking(true, ec))
         throw cannotAnnounce(options_, {}, ec);
-    lookups_ = std::make_unique<Datagrams>(
-        io, std::move(listener),
-        [this](std::span<const std::byte> datagram, const udp::endpoint& from) {
-            take(datagram, from);
-        });
+    lookups_ =
+        std::make_unique<Datagrams>(io, std::move(listener),
+                                    [this](std::span<const std::byte> datagram,
+                                           const udp::endpoint& from) { take(datagram, from); });
     join();
 }
 
 void Announcer::join() {
     for (const Interface& interface : interfacesOf(listening_)) {
         error_code ec;
-        lookups_->socket().set_option(
-            asio::ip::multicast::join_group{group_, interface.address}, ec);
-        if (!ec || ec == asio::error::address_in_use || notJoined_ == interface.name) continue;
-        notJoined_ = interface.name;
-        if (options_.report)
-            options_.report(fmt::format("cannot be looked up through {}: {}", interface.name,
-                                        ec.message()));
+        lookups_->socket().set_option(asio::ip::multicast::join_group{group_, interface.address},
+                                      ec);
+        if (!ec || ec == asio::error::address_in_use) continue;
+        if (notJoined_.insert(interface.name).second && options_.report)
+            options_.report(
+                fmt::format("cannot be looked up through {}: {}", interface.name, ec.message()));
     }
     joinTimer_.after(joinAgain, [this] { join(); });
 }
@@ -94,8 +92,8 @@ void Announcer::malformed(const udp::endpoint& from, const std::string& why) {
     while (rest % 10 == 0) rest /= 10;
     if (rest != 1 || !options_.report) return;
     options_.report(fmt::format("{} datagram{} dropped, the last from {}:{}: {}", malformed_,
-                                malformed_ == 1 ? "" : "s", from.address().to_string(),
-                                from.port(), why));
+                                malformed_ == 1 ? "" : "s", from.address().to_string(), from.port(),
+                                why));
 }
 
 }  // namespace gnomon::net

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "Datagrams.h"
@@ -36,7 +37,7 @@ private:
     asio::ip::address_v4 group_ = {};
     Responder responder_;
     std::uint64_t malformed_ = 0;
-    std::string notJoined_ = {};  // that this failed was said
+    std::set<std::string> notJoined_ = {};  // interfaces, that it was said of
     Timer joinTimer_;
     // Answers come from the address that the server listens on, which is the one they tell.
     udp::socket answers_;

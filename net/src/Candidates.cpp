@@ -26,8 +26,8 @@ void Candidates::add(const Place& place, std::uint64_t instance) {
     if (list_.size() == most) {
         // Those of earlier lookups go first. Else chance decides: who answers a hundred times
         // keeps nobody out for long.
-        const auto old = std::find_if(list_.begin(), list_.end(),
-                                      [](const One& one) { return !one.answered; });
+        const auto old =
+            std::find_if(list_.begin(), list_.end(), [](const One& one) { return !one.answered; });
         list_.erase(old != list_.end() ? old : list_.begin() + random_() % most);
     }
     list_.push_back(std::move(fresh));
@@ -72,11 +72,9 @@ std::optional<std::pair<Place, Place>> Candidates::rivals() {
 std::vector<Place> Candidates::all() const {
     std::vector<Place> places;
     for (std::size_t i = 0; i < list_.size(); ++i) {
-        const bool again = std::any_of(list_.begin(), list_.begin() + static_cast<std::ptrdiff_t>(i),
-                                       [&](const One& one) {
-                                           return one.answered &&
-                                                  one.instance == list_[i].instance;
-                                       });
+        const bool again = std::any_of(
+            list_.begin(), list_.begin() + static_cast<std::ptrdiff_t>(i),
+            [&](const One& one) { return one.answered && one.instance == list_[i].instance; });
         if (list_[i].answered && !again) places.push_back(list_[i].place);
     }
     return places;

@@ -27,7 +27,8 @@ public:
     void begin();
     /// @param instance  of the server; the same one may be at several places
     void add(const Place& place, std::uint64_t instance);
-    /// Who answered in this lookup and was not tried yet: who failed least, then who answered first.
+    /// Who answered in this lookup and was not tried yet: who failed least, then who answered
+    /// first.
     std::optional<Place> next();
     /// As next(), without trying it. 0: it never failed, or not since it worked.
     std::optional<unsigned> failuresOfNext() const;

@@ -12,8 +12,8 @@ Result<std::span<const std::byte>> datagramBody(Route route, MessageType type,
     const auto length = from.scalar<std::uint32_t>();
     const auto found = from.scalar<std::uint32_t>();
     if (from.failed())
-        return fail(Errc::protocol, fmt::format("{} bytes, no message is so short",
-                                                datagram.size()));
+        return fail(Errc::protocol,
+                    fmt::format("{} bytes, no message is so short", datagram.size()));
     const Limit limit = limitOf(route, found);
     if (!limit.allowed || found != static_cast<std::uint32_t>(type))
         return fail(Errc::protocol, fmt::format("message type {}, expected {} ({})", found,
@@ -32,7 +32,8 @@ struct Datagrams::State : std::enable_shared_from_this<State> {
     void receive() {
         if (!allowance.take(SteadyClock::now())) return later(allowance.next());
         socket.async_receive_from(
-            asio::buffer(buffer), sender, [self = shared_from_this()](error_code ec, std::size_t n) {
+            asio::buffer(buffer), sender,
+            [self = shared_from_this()](error_code ec, std::size_t n) {
                 if (!self->take) return;
                 // Nothing that is sent makes receiving fail; the system may be short of memory.
                 if (ec) return self->later(SteadyClock::now() + Milliseconds{100});

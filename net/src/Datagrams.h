@@ -37,7 +37,8 @@ class Datagrams {
 public:
     static constexpr unsigned mostPerSecond = 1000;
     /// May destroy the Datagrams.
-    using Take = std::function<void(std::span<const std::byte> datagram, const udp::endpoint& from)>;
+    using Take =
+        std::function<void(std::span<const std::byte> datagram, const udp::endpoint& from)>;
 
     Datagrams(asio::io_context& io, udp::socket socket, Take take);
     /// Takes no more, and closes the socket.

@@ -22,11 +22,7 @@ constexpr Milliseconds settling{1000};
 
 Finder::Finder(asio::io_context& io, std::string name, const std::string& group, bool anywhere,
                std::function<void(const std::string&)> report)
-    : io_{io},
-      name_{std::move(name)},
-      anywhere_{anywhere},
-      report_{std::move(report)},
-      timer_{io} {
+    : io_{io}, name_{std::move(name)}, anywhere_{anywhere}, report_{std::move(report)}, timer_{io} {
     const auto parsed = orThrow(parseLookupGroup(group));
     group_ = {asio::ip::make_address_v4(parsed.address), parsed.port};
 }
@@ -56,8 +52,8 @@ void Finder::ask() {
             });
     }
     askedAt_ = SteadyClock::now();
-    const auto through = interfacesOf(anywhere_ ? asio::ip::address_v4::any()
-                                                : asio::ip::address_v4::loopback());
+    const auto through =
+        interfacesOf(anywhere_ ? asio::ip::address_v4::any() : asio::ip::address_v4::loopback());
     for (const Interface& interface : through) {
         answers_->socket().set_option(asio::ip::multicast::outbound_interface{interface.address},
                                       ec);
@@ -93,11 +89,9 @@ void Finder::stop() {
     answers_.reset();
 }
 
-/// Each trouble once, until there is another one.
+/// Each trouble once: there are as many as interfaces.
 void Finder::report(const std::string& what) {
-    if (what == reported_) return;
-    reported_ = what;
-    if (report_) report_(what);
+    if (reported_.insert(what).second && report_) report_(what);
 }
 
 }  // namespace gnomon::net

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "Datagrams.h"
@@ -45,7 +46,7 @@ private:
     udp::endpoint group_ = {};
     const bool anywhere_;
     const std::function<void(const std::string&)> report_;
-    std::string reported_ = {};
+    std::set<std::string> reported_ = {};
     bool malformedSaid_ = false;
     Hear hear_ = {};
     std::vector<std::byte> question_ = {};

@@ -44,12 +44,12 @@ HostCore::HostCore(asio::io_context& io, tcp::acceptor acceptor, ServerOptions o
 void HostCore::start() {
     if (!options_.announce.empty()) {
         const auto end = acceptor_.local_endpoint();
-        announcer_ = std::make_unique<Announcer>(
-            io_, AnnouncerOptions{.name = options_.name,
-                                  .listening = end.address(),
-                                  .port = end.port(),
-                                  .group = options_.announce,
-                                  .report = options_.turnedAway});
+        announcer_ =
+            std::make_unique<Announcer>(io_, AnnouncerOptions{.name = options_.name,
+                                                              .listening = end.address(),
+                                                              .port = end.port(),
+                                                              .group = options_.announce,
+                                                              .report = options_.turnedAway});
     }
     accept();
 }

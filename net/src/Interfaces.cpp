@@ -24,9 +24,9 @@ std::vector<Interface> interfacesOf(const asio::ip::address_v4& listening) {
         // All of 127.0.0.0/8 is there.
         const bool listens = listening.is_unspecified() || address == listening ||
                              (loopback && listening.is_loopback());
-        const bool known =
-            std::any_of(found.begin(), found.end(),
-                        [&](const Interface& other) { return other.name == at->ifa_name; });
+        const bool known = std::any_of(found.begin(), found.end(), [&](const Interface& other) {
+            return other.name == at->ifa_name;
+        });
         if (listens && !known) found.push_back({.name = at->ifa_name, .address = address});
     }
     return found;

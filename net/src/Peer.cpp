@@ -41,8 +41,7 @@ Peer::Peer(asio::io_context& io, ServerAddress address, const SyncOptions& optio
 std::string Peer::label() const { return labelOf(address_); }
 
 void Peer::open(ServerAddress address) {
-    const bool moved =
-        !finder_ && (address.host != address_.host || address.port != address_.port);
+    const bool moved = !finder_ && (address.host != address_.host || address.port != address_.port);
     if (moved && state_ != ServerState::waiting)
         drop({.code = Errc::disconnected,
               .what = fmt::format("{} moved to {}:{}", label(), address.host, address.port)});
@@ -67,9 +66,8 @@ void Peer::tryNext() {
     address_.port = next->port;
     if (saidFound_ != label()) {
         saidFound_ = label();
-        owner_.log(LogLevel::info,
-                   fmt::format("{}: found, {:.2f} ms after it was asked for", label(),
-                               millisecondsOf(foundAfter_)));
+        owner_.log(LogLevel::info, fmt::format("{}: found, {:.2f} ms after it was asked for",
+                                               label(), millisecondsOf(foundAfter_)));
     }
     attempt();
 }
@@ -89,9 +87,9 @@ void Peer::look() {
 /// not answered yet.
 void Peer::heard(const Finder::Heard& from) {
     if (from.version != protocolVersion) {
-        lastError_ = fmt::format("{} ({}:{}): it answers with protocol version {}, expected {}",
-                                 address_.name, from.host, from.port, from.version,
-                                 protocolVersion);
+        lastError_ =
+            fmt::format("{} ({}:{}): it answers with protocol version {}, expected {}",
+                        address_.name, from.host, from.port, from.version, protocolVersion);
         unfit_ = !everMember;
         if (lastError_ != lastLogged_) owner_.log(LogLevel::warning, lastError_);
         lastLogged_ = lastError_;

@@ -207,18 +207,21 @@ constexpr Broken brokenWalls[] = {
     {.name = "noHostAndNoLookup",
      .from = "host = \"pc2\"",
      .to = "host = \"\"",
-     .error = "wall.toml:26:8: server \"east\": host is \"\", must be a host name or an IP address, "
-              "for [cluster] has no lookup"},
+     .error =
+         "wall.toml:26:8: server \"east\": host is \"\", must be a host name or an IP address, "
+         "for [cluster] has no lookup"},
     {.name = "lookedUpWithAPort",
      .from = "host = \"pc2\"",
      .to = "port = 7430\n[cluster]\nlookup = \"239.255.74.30:7430\"\n[[server]]\nname = \"x\"",
-     .error = "wall.toml:26:8: server \"east\": port is 7430, and a server without a host says where "
-              "it listens"},
+     .error =
+         "wall.toml:26:8: server \"east\": port is 7430, and a server without a host says where "
+         "it listens"},
     {.name = "lookupNoGroup",
      .from = "[sync]",
      .to = "[cluster]\nlookup = \"10.0.0.1:7430\"\n[sync]",
-     .error = "wall.toml:6:10: cluster: lookup is \"10.0.0.1:7430\", must be an IPv4 multicast group "
-              "and a port, such as 239.255.74.30:7430"},
+     .error =
+         "wall.toml:6:10: cluster: lookup is \"10.0.0.1:7430\", must be an IPv4 multicast group "
+         "and a port, such as 239.255.74.30:7430"},
     {.name = "lookupNoPort",
      .from = "[sync]",
      .to = "[cluster]\nlookup = \"239.255.74.30\"\n[sync]",

@@ -121,8 +121,9 @@ TEST(Load, ServersWithoutAHostAreLookedUpWhereTheWallSaysSo) {
     const auto servers = [](const std::string& lookup, const std::string& host) {
         auto text = replaced(smallWall, "host = \"pc2\"\n", host);
         text = replaced(text, "[shadow]\n", "[cluster]\n" + lookup + "[shadow]\n");
-        text += "[[screen]]\nname = \"side\"\nlower_left = [-1, 1, -1]\nlower_right = [1, 1, -1]\n"
-                "upper_left = [-1, 2, -1]\n[[server_grid]]\nscreen = \"side\"\nwindow = [64, 64]\n";
+        text +=
+            "[[screen]]\nname = \"side\"\nlower_left = [-1, 1, -1]\nlower_right = [1, 1, -1]\n"
+            "upper_left = [-1, 2, -1]\n[[server_grid]]\nscreen = \"side\"\nwindow = [64, 64]\n";
         const auto config = parseConfig(text, "wall.toml");
         EXPECT_TRUE(config) << config.error().text();
         const auto again = parseConfig(toToml(*config), "written.toml");

@@ -48,9 +48,8 @@ protected:
     }
     std::string wall(const std::string& more = {},
                      const std::string& sync = "timeout = 2.0") const {
-        return folder.write("lookup.toml", text(sync) +
-                                               "[cluster]\nlookup = \"239.255.74.30:7430\"\n" +
-                                               more);
+        return folder.write("lookup.toml",
+                            text(sync) + "[cluster]\nlookup = \"239.255.74.30:7430\"\n" + more);
     }
     std::unique_ptr<Namespace> client, far;
     std::vector<std::unique_ptr<Program>> servers;

@@ -45,8 +45,8 @@ private:
         if (!answer || answer->empty()) return;
         require(answer->size() <= bytes.size(), "an answer is no longer than its question");
         require(++answered_ <= net::Responder::mostPerSecond, "answers are so many a second");
-        const auto read = net::decodeDatagram<net::wire::Announcement>(net::Route::toClientLookup,
-                                                                       *answer);
+        const auto read =
+            net::decodeDatagram<net::wire::Announcement>(net::Route::toClientLookup, *answer);
         require(read && read->port == 7430 && read->server == "left", "a client understands it");
     }
     void toClient(std::span<const std::byte> bytes, unsigned place) {

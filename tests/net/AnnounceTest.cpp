@@ -111,7 +111,8 @@ TEST_F(Announce, OfAnotherVersionIsNamedWithBothNumbers) {
     const FakeAnnouncer fake{group, claim(7430, 77)};
     TestHub hub;
     hub->connect(left());
-    EXPECT_TRUE(says(hub, "left (127.0.0.1:7430): it answers with protocol version 77, expected 1"));
+    EXPECT_TRUE(
+        says(hub, "left (127.0.0.1:7430): it answers with protocol version 77, expected 1"));
     EXPECT_TRUE(hub->status()[0].unfit);
     // It does not keep the right one out.
     const TestServer server{"left", {.announce = group}};
@@ -178,13 +179,11 @@ TEST_F(Announce, NonsenseInAnswersIsDroppedAndSaidOnce) {
 TEST_F(Announce, LookUpTellsWhereAllAre) {
     const TestServer one{"left", {.announce = group}}, other{"left", {.announce = group}};
     const TestServer right{"right", {.announce = group}};
-    const FakeAnnouncer old{group, [&](std::span<const std::byte> bytes) {
-                                const auto asked =
-                                    decodeDatagram<wire::Lookup>(Route::toServerLookup, bytes);
-                                return asked && asked->server == "old"
-                                           ? claim(7, 0)(bytes)
-                                           : std::vector<std::byte>{};
-                            }};
+    const FakeAnnouncer old{
+        group, [&](std::span<const std::byte> bytes) {
+            const auto asked = decodeDatagram<wire::Lookup>(Route::toServerLookup, bytes);
+            return asked && asked->server == "old" ? claim(7, 0)(bytes) : std::vector<std::byte>{};
+        }};
     const auto found = lookUp({"left", "right", "old", "nobody"}, group, false, 2000ms);
     ASSERT_EQ(found.size(), 4U);
     EXPECT_EQ(found[0].places.size(), 2U);

@@ -66,11 +66,11 @@ std::string lookupGroup() {
 std::string whyNoMulticast() {
     const auto group = parsed(lookupGroup());
     const int ear = hearing(group);
-    if (ear < 0) return std::string{"no multicast group can be joined on loopback: "} +
-                        std::strerror(errno);
+    if (ear < 0)
+        return std::string{"no multicast group can be joined on loopback: "} + std::strerror(errno);
     const int mouth = udpSocket();
-    const bool sent = sendsOnLoopback(mouth) &&
-                      ::sendto(mouth, "?", 1, 0, plain(group), sizeof group) == 1;
+    const bool sent =
+        sendsOnLoopback(mouth) && ::sendto(mouth, "?", 1, 0, plain(group), sizeof group) == 1;
     pollfd entry{ear, POLLIN, 0};
     const bool came = sent && ::poll(&entry, 1, 5000) > 0;
     ::close(ear);

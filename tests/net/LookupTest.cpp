@@ -150,8 +150,7 @@ TEST(Responder, AnswersSoManyASecond) {
     for (int second = 0; second < 3; ++second) {
         unsigned answered = 0;
         for (int i = 0; i < 999; ++i)
-            if (!responder.answer(question(), start + second * 1s + i * 1ms)->empty())
-                ++answered;
+            if (!responder.answer(question(), start + second * 1s + i * 1ms)->empty()) ++answered;
         EXPECT_EQ(answered, Responder::mostPerSecond);
     }
     // Other names cost it nothing.

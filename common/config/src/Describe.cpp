@@ -54,7 +54,7 @@ std::vector<Row> serverRows(const Config& config) {
         {"server", "host", "port", "gpu", "window", "viewport", "screen", "tile", "eye"}};
     for (const Server& server : config.servers) {
         Row row = {server.name, hostText(server),
-                   isLookedUp(server)  ? "-"
+                   isLookedUp(server) ? "-"
                    : server.port == 0 ? "any"
                                       : std::to_string(server.port)};
         for (const Window& window : server.windows) {

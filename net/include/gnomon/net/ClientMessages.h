@@ -307,7 +307,8 @@ struct Lookup {
     }
     const char* wrong() const {
         if (magic != protocolMagic) return "not from a Gnomon program";
-        if (server.empty() || server.size() > maxLookupName) return "a name of a length out of range";
+        if (server.empty() || server.size() > maxLookupName)
+            return "a name of a length out of range";
         if (fixedBytes + server.size() + tail.size() != bodyBytes) return "not as long as all are";
         for (const std::byte byte : tail)
             if (byte != std::byte{0}) return "something behind its name";

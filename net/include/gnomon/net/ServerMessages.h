@@ -319,7 +319,8 @@ struct Announcement {
     }
     const char* wrong() const {
         if (magic != protocolMagic) return "not from a Gnomon program";
-        if (server.empty() || server.size() > maxLookupName) return "a name of a length out of range";
+        if (server.empty() || server.size() > maxLookupName)
+            return "a name of a length out of range";
         return port == 0 ? "port 0" : nullptr;
     }
 };
