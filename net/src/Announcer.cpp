@@ -12,7 +12,7 @@ namespace gnomon::net {
 namespace {
 
 /// Interfaces come and go: a server may be up before its network is.
-constexpr std::chrono::seconds joinAgain{10};
+constexpr std::chrono::seconds joinAgain{3};
 
 Failure cannotAnnounce(const AnnouncerOptions& options, const std::string& why,
                        error_code ec = {}) {

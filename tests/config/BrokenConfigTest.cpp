@@ -210,12 +210,6 @@ constexpr Broken brokenWalls[] = {
      .error =
          "wall.toml:26:8: server \"east\": host is \"\", must be a host name or an IP address, "
          "for [cluster] has no lookup"},
-    {.name = "lookedUpWithAPort",
-     .from = "host = \"pc2\"",
-     .to = "port = 7430\n[cluster]\nlookup = \"239.255.74.30:7430\"\n[[server]]\nname = \"x\"",
-     .error =
-         "wall.toml:26:8: server \"east\": port is 7430, and a server without a host says where "
-         "it listens"},
     {.name = "lookupNoGroup",
      .from = "[sync]",
      .to = "[cluster]\nlookup = \"10.0.0.1:7430\"\n[sync]",
