@@ -59,15 +59,17 @@ void Peer::connect() {
 }
 
 /// The next of those that answered to its name; they are asked for anew where there is none.
-void Peer::tryNext() {
+void Peer::tryNext(std::optional<SteadyClock::duration> after) {
     const auto next = candidates_.next();
     if (!next) return look();
     address_.host = next->host;
     address_.port = next->port;
     if (saidFound_ != label()) {
         saidFound_ = label();
-        owner_.log(LogLevel::info, fmt::format("{}: found, {:.2f} ms after it was asked for",
-                                               label(), millisecondsOf(foundAfter_)));
+        const auto when =
+            after ? fmt::format(", {:.2f} ms after it was asked for", millisecondsOf(*after))
+                  : std::string{};
+        owner_.log(LogLevel::info, label() + ": found" + when);
     }
     attempt();
 }
@@ -77,6 +79,7 @@ void Peer::look() {
     address_.port = 0;
     state_ = ServerState::looking;
     candidates_.begin();
+    saidVersion_ = false;
     if (!std::exchange(saidLooking_, true))
         owner_.log(LogLevel::info, fmt::format("{}: {}", address_.name, stateText()));
     owner_.changed();
@@ -87,12 +90,12 @@ void Peer::look() {
 /// not answered yet.
 void Peer::heard(const Finder::Heard& from) {
     if (from.version != protocolVersion) {
+        if (state_ != ServerState::looking || std::exchange(saidVersion_, true)) return;
         lastError_ =
             fmt::format("{} ({}:{}): it answers with protocol version {}, expected {}",
                         address_.name, from.host, from.port, from.version, protocolVersion);
         unfit_ = !everMember;
-        if (lastError_ != lastLogged_) owner_.log(LogLevel::warning, lastError_);
-        lastLogged_ = lastError_;
+        owner_.log(LogLevel::warning, lastError_);
         owner_.changed();
         return;
     }
@@ -104,10 +107,9 @@ void Peer::heard(const Finder::Heard& from) {
                                address_.name, rivals->first.host, rivals->first.port,
                                rivals->second.host, rivals->second.port));
     if (state_ != ServerState::looking || !candidates_.failuresOfNext()) return;
-    foundAfter_ = from.after;
     finder_->settle();
     if (*candidates_.failuresOfNext() == 0)
-        tryNext();
+        tryNext(from.after);
     else if (!timer_.armed())
         timer_.after(gathering, [this] { tryNext(); });
 }

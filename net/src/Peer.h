@@ -125,7 +125,7 @@ private:
     void attempt();
     void look();
     void heard(const Finder::Heard& from);
-    void tryNext();
+    void tryNext(std::optional<SteadyClock::duration> after = {});
     Place place() const { return {.host = address_.host, .port = address_.port}; }
     void dial(Connected then);
     void greet(tcp::socket socket);
@@ -152,7 +152,7 @@ private:
     Candidates candidates_;
     bool saidLooking_ = false;  // since it was a member
     std::string saidFound_;     // the same
-    SteadyClock::duration foundAfter_ = {};
+    bool saidVersion_ = false;  // in this lookup
     std::shared_ptr<Channel> control_;
     std::shared_ptr<Channel> bulkChannel_;
     BulkSender bulk_;
