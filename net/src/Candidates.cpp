@@ -6,6 +6,7 @@ namespace gnomon::net {
 
 void Candidates::begin() {
     for (One& one : list_) one.answered = false;
+    tries_ = 0;
     rivalsTold_ = false;
 }
 
@@ -35,6 +36,7 @@ void Candidates::add(const Place& place, std::uint64_t instance) {
 
 const Candidates::One* Candidates::best() const {
     const One* found = nullptr;
+    if (tries_ == most) return found;
     for (const One& one : list_)
         if (one.answered && !one.tried && (found == nullptr || one.failures < found->failures))
             found = &one;
@@ -45,6 +47,7 @@ std::optional<Place> Candidates::next() {
     const One* found = best();
     if (found == nullptr) return {};
     list_[static_cast<std::size_t>(found - list_.data())].tried = true;
+    ++tries_;
     return found->place;
 }
 

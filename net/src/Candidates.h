@@ -29,6 +29,7 @@ public:
     void add(const Place& place, std::uint64_t instance);
     /// Who answered in this lookup and was not tried yet: who failed least, then who answered
     /// first.
+    /// Nobody after so many.
     std::optional<Place> next();
     /// As next(), without trying it. 0: it never failed, or not since it worked.
     std::optional<unsigned> failuresOfNext() const;
@@ -51,6 +52,7 @@ private:
     const One* best() const;
 
     std::vector<One> list_ = {};  // those of this lookup in the order of their answers
+    std::size_t tries_ = 0;       // in this lookup
     bool rivalsTold_ = false;
     std::minstd_rand random_;
 };

@@ -204,6 +204,22 @@ TEST(Candidates, WhoFailedComesLastUntilItWorked) {
     EXPECT_EQ(candidates.next(), at(1));
 }
 
+TEST(Candidates, SoManyAreTriedInOneLookup) {
+    Candidates candidates{1};
+    std::size_t tried = 0;
+    const auto flood = [&] {
+        for (int i = 0; i < 100; ++i) {
+            candidates.add(at(i), static_cast<std::uint64_t>(i));
+            tried += candidates.next() ? 1 : 0;
+        }
+    };
+    flood();
+    EXPECT_EQ(tried, Candidates::most);
+    candidates.begin();
+    flood();
+    EXPECT_EQ(tried, 2 * Candidates::most);
+}
+
 TEST(Candidates, OneServerAtSeveralPlacesHasNoRival) {
     Candidates candidates{1};
     candidates.add(at(1), 7);
