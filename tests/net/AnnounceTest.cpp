@@ -34,11 +34,11 @@ protected:
                                                .server = asked->server});
         };
     }
-    /// Shows frames until the log says so.
+    /// Waits for everybody, and shows frames, until the log says so.
     static bool says(TestHub& hub, const std::string& text) {
         const auto limit = eventually();
         while (!hub.logContains(text) && SteadyClock::now() < limit)
-            static_cast<void>(hub->waitForAll({}, in(20ms)));
+            if (hub->waitForAll({}, in(20ms))) hub->frame({}, 0);
         return hub.logContains(text);
     }
     const std::string group = lookupGroup();
