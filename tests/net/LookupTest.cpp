@@ -4,7 +4,9 @@
 #include <gnomon/net/ServerMessages.h>
 #include <gtest/gtest.h>
 
-#include <set>
+#include <cstring>
+#include <functional>
+#include <utility>
 
 #include "Allowance.h"
 #include "Candidates.h"

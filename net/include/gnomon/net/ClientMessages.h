@@ -314,12 +314,12 @@ struct Lookup {
             if (byte != std::byte{0}) return "something behind its name";
         return nullptr;
     }
-    /// @pre name.size() <= maxLookupName
-    static Lookup padded(std::uint64_t token, std::string name) {
+    /// @pre whom.size() <= maxLookupName
+    static Lookup padded(std::uint64_t token, std::string whom) {
         static constexpr std::array<std::byte, bodyBytes> zeros{};
-        const std::size_t size = fixedBytes + name.size();
+        const std::size_t size = fixedBytes + whom.size();
         return {.token = token,
-                .server = std::move(name),
+                .server = std::move(whom),
                 .tail = std::span{zeros}.first(bodyBytes - size)};
     }
 };
