@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 #include <gnomon/config/Load.h>
 #include <gnomon/config/Report.h>
+#include <gnomon/net/Lookup.h>
 #include <gnomon/net/Probe.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -35,34 +37,65 @@ void writeSvg(const config::Config& wall, const std::string& file) {
                             .cause = {errno, std::generic_category()}}};
 }
 
-/// Every host once, in the order of the file: what a shell loop over machines needs.
+/// Every host that is named once, in the order of the file: what a shell loop over machines needs.
 void printHosts(const config::Config& wall) {
     std::set<std::string> seen;
     for (const auto& server : wall.servers)
-        if (seen.insert(server.host).second) fmt::print("{}\n", server.host);
+        if (!config::isLookedUp(server) && seen.insert(server.host).second)
+            fmt::print("{}\n", server.host);
 }
 
-/// Whether the servers on other machines are there and have the key: a line each.
+/// Where the servers are that are looked up, a line each; nothing where one is not found.
+std::vector<net::ServerAddress> found(const config::Config& wall, bool hasKey) {
+    std::vector<std::string> names;
+    for (const auto& server : wall.servers)
+        if (config::isLookedUp(server)) names.push_back(server.name);
+    std::vector<net::ServerAddress> all;
+    if (names.empty()) return all;
+    const auto& group = wall.cluster.lookup.value();
+    const auto answers = net::lookUp(names, group, hasKey, patience);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const auto& [places, ms, trouble] = answers[i];
+        if (places.empty())
+            fmt::print("{}: not found: nobody answered on {} (udp){} within {} ms{}\n", names[i],
+                       group, hasKey ? "" : ", on this machine, for there is no cluster key,",
+                       patience.count(), trouble.empty() ? trouble : "; " + trouble);
+        for (const auto& place : places)
+            fmt::print("{}: found at {}:{} after {:.2f} ms\n", names[i], place.host, place.port,
+                       ms);
+        if (places.size() > 1)
+            fmt::print("warning: {}: {} servers have this name, each needs its own\n", names[i],
+                       places.size());
+        all.insert(all.end(), places.begin(), places.end());
+    }
+    return all;
+}
+
+/// Whether the servers on other machines, and those that are looked up, are there and have the key:
+/// a line each.
 int reach(const config::Config& wall, const CheckOptions& options) {
     const auto key = orThrow(loadKey(orThrow(findKeyFile(wall, {.key = options.key}))));
-    std::vector<net::ServerAddress> servers;
+    std::vector<net::ServerAddress> servers = found(wall, key != nullptr);
     for (const auto& server : wall.servers)
-        if (!config::isLocal(server.host))
-            servers.push_back({.name = server.name,
-                               .host = server.host,
-                               .port = static_cast<std::uint16_t>(server.port)});
+        if (!config::isLocal(server.host) && !config::isLookedUp(server))
+            servers.push_back(addressOf(wall, server));
     const auto answers = net::probe(servers, key, patience);
-    std::size_t silent = 0;
+    std::set<std::string> good;
     for (std::size_t i = 0; i < servers.size(); ++i) {
-        if (!answers[i]) ++silent;
-        fmt::print("{} ({}:{}): {}\n", servers[i].name, servers[i].host, servers[i].port,
-                   answers[i] ? "is there, and has the key" : answers[i].error().text());
+        if (answers[i]) good.insert(servers[i].name);
+        fmt::print("{}: {}\n", net::labelOf(servers[i]),
+                   !answers[i] ? answers[i].error().text()
+                   : key       ? "is there, and has the key"
+                               : "is there");
     }
-    if (silent > 0)
+    const auto asked = static_cast<std::size_t>(
+        std::count_if(wall.servers.begin(), wall.servers.end(),
+                      [](const config::Server& server) { return !config::isLocal(server.host); }));
+    if (good.size() < asked)
         throw Failure{Errc::disconnected, fmt::format("{} of {} servers on other machines cannot "
                                                       "be used",
-                                                      silent, servers.size())};
-    if (servers.empty()) fmt::print("no server is on another machine\n");
+                                                      asked - good.size(), asked)};
+    if (asked == 0) fmt::print("no server is on another machine\n");
     return 0;
 }
 
@@ -95,7 +128,8 @@ void addCheck(CLI::App& program, Action& action) {
     command.add_option("--svg", options->svg, "Draw the wall into this file")->type_name("FILE");
     command.add_flag("--hosts", options->hosts, "Only the hosts, one a line");
     command.add_flag("--reach", options->reach,
-                     "Ask the servers on other machines whether they are there and have the key");
+                     "Look up the servers that have no host; ask these and those on other machines "
+                     "whether they are there and have the key");
     command.add_option("--key", options->key, "Cluster key, instead of the config's")
         ->type_name("FILE");
     command.callback([options, &action] { action = [options] { return check(*options); }; });

@@ -12,14 +12,17 @@ Result<KeyFile> findKeyFile(const config::Config& config, const ApplicationOptio
     if (config.cluster.key)
         return KeyFile{.file = std::filesystem::absolute(config::keyPath(config.cluster))};
     const auto& servers = config.servers;
-    const auto far = std::find_if(servers.begin(), servers.end(), [](const config::Server& server) {
-        return !config::isLocal(server.host);
-    });
-    if (far == servers.end()) return KeyFile{};
+    if (std::all_of(servers.begin(), servers.end(),
+                    [](const config::Server& server) { return config::isLocal(server.host); }))
+        return KeyFile{};
     const auto usual = net::defaultKeyFile();
     std::error_code ec;
     if (!usual.empty() && std::filesystem::exists(usual, ec))
         return KeyFile{.file = usual, .usual = true};
+    const auto far = std::find_if(servers.begin(), servers.end(), [](const config::Server& server) {
+        return !config::isLocal(server.host) && !config::isLookedUp(server);
+    });
+    if (far == servers.end()) return KeyFile{};
     return fail(Errc::config,
                 fmt::format("{}server \"{}\" is on {}: other computers are only spoken to with a "
                             "cluster key, and there is no {}; make one with gnomon keygen and copy "
@@ -33,6 +36,13 @@ Result<net::SharedKey> loadKey(const KeyFile& file) {
     auto key = net::ClusterKey::load(file.file);
     if (!key) return tl::unexpected{std::move(key).error()};
     return std::make_shared<const net::ClusterKey>(*std::move(key));
+}
+
+net::ServerAddress addressOf(const config::Config& config, const config::Server& server) {
+    net::ServerAddress address{
+        .name = server.name, .host = server.host, .port = static_cast<std::uint16_t>(server.port)};
+    if (config::isLookedUp(server)) address.lookup = config.cluster.lookup.value();
+    return address;
 }
 
 std::vector<LaunchCommand> launchCommands(const config::Config& config,

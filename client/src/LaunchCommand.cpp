@@ -110,7 +110,7 @@ std::vector<LaunchCommand> launchCommands(const config::Config& config,
             commands.push_back(
                 {.server = server.name,
                  .arguments = serverWords(server, program, "127.0.0.1", settings, settings.key)});
-        else if (config.cluster.launch != config::Launch::none)
+        else if (config.cluster.launch != config::Launch::none && !config::isLookedUp(server))
             commands.push_back({.server = server.name,
                                 .host = server.host,
                                 .arguments = farWords(config.cluster, server, settings)});

@@ -71,14 +71,21 @@ ApplicationOptions applicationOptions(const RunOptions& options, Console& consol
     return made;
 }
 
+/// Of a server that somebody else must have started.
+std::string expectedOf(const config::Config& config, const config::Server& server) {
+    if (config::isLookedUp(server))
+        return fmt::format("{}: expected to be running and looked up on {} (udp)", server.name,
+                           config.cluster.lookup.value());
+    return fmt::format("{}: expected to be running at {}:{}", server.name, server.host,
+                       server.port);
+}
+
 int dryRun(const config::Config& wall, const ApplicationOptions& options, Console& console) {
     const auto config = orThrow(adjusted(wall, options));
     const auto key = orThrow(findKeyFile(config, options));
     for (const auto& command : launchCommands(config, options, key)) console.line(command.text());
     for (const auto& server : config.servers)
-        if (isAwaited(config, server))
-            console.line(fmt::format("# {}: expected to be running at {}:{}", server.name,
-                                     server.host, server.port));
+        if (isAwaited(config, server)) console.line("# " + expectedOf(config, server));
     return 0;
 }
 
@@ -86,8 +93,7 @@ int dryRun(const config::Config& wall, const ApplicationOptions& options, Consol
 std::string waitingFor(const std::vector<net::ServerStatus>& servers) {
     for (const auto& server : servers) {
         if (server.state == net::ServerState::member) continue;
-        const auto label = fmt::format("{} ({}:{})", server.address.name, server.address.host,
-                                       server.address.port);
+        const auto label = net::labelOf(server.address);
         // An error begins with it already.
         return server.text.starts_with(label) ? server.text : label + ": " + server.text;
     }
@@ -154,9 +160,7 @@ private:
     /// False where a signal came first.
     bool start(const Interrupt& interrupt) {
         for (const auto& server : app_.config().servers)
-            if (isAwaited(app_.config(), server))
-                console_.line(fmt::format("{}: expected to be running at {}:{}", server.name,
-                                          server.host, server.port));
+            if (isAwaited(app_.config(), server)) console_.line(expectedOf(app_.config(), server));
         auto said = Clock::now();
         std::string before;
         const auto progress = [&](const std::vector<net::ServerStatus>& servers) {
@@ -172,7 +176,7 @@ private:
         orThrow(Result<void>{started});
         // Local servers have said so themselves.
         for (const auto& server : app_.status())
-            if (!config::isLocal(server.address.host))
+            if (!server.address.lookup.empty() || !config::isLocal(server.address.host))
                 console_.line(fmt::format("{}: {}", server.address.name, server.description));
         return true;
     }

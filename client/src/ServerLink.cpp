@@ -58,10 +58,7 @@ ServerLink::ServerLink(const config::Config& config, const field::TypeRegistry& 
       keyFile_{orThrow(findKeyFile(config, options))},
       hub_{types, sync_, hooks(), orThrow(loadKey(keyFile_))} {
     for (const auto& server : config.servers)
-        if (isAwaited(config, server))
-            remote_.push_back({.name = server.name,
-                               .host = server.host,
-                               .port = static_cast<std::uint16_t>(server.port)});
+        if (isAwaited(config, server)) remote_.push_back(addressOf(config, server));
     LauncherOptions launch;
     launch.commands = launchCommands(config, options, keyFile_);
     std::map<std::string, std::string> hosts;

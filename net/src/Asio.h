@@ -6,7 +6,9 @@
 #include <boost/asio/connect.hpp>
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/multicast.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ip/udp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/write.hpp>
@@ -18,6 +20,7 @@ namespace gnomon::net {
 
 namespace asio = boost::asio;
 using boost::asio::ip::tcp;
+using boost::asio::ip::udp;
 using boost::system::error_code;
 
 using SteadyClock = std::chrono::steady_clock;

@@ -12,8 +12,7 @@ std::string missingOf(const std::vector<ServerStatus>& servers) {
     std::string missing;
     for (const ServerStatus& server : servers) {
         if (server.state == ServerState::member) continue;
-        const auto label = fmt::format("{} ({}:{})", server.address.name, server.address.host,
-                                       server.address.port);
+        const auto label = labelOf(server.address);
         missing += missing.empty() ? "" : "; ";
         // An error of the peer begins with its label already.
         missing += server.text.rfind(label, 0) == 0 ? server.text : label + ": " + server.text;

@@ -83,6 +83,10 @@ Limit limitOf(Route route, std::uint32_t type) noexcept {
         case Route::toClientBulk:
             if (message == refused) return upTo(64 * kib);
             return message == image ? upTo(mib) : Limit{};
+        case Route::toServerLookup:
+            return message == lookup ? upTo(maxDatagram - 8) : Limit{};
+        case Route::toClientLookup:
+            return message == announcement ? upTo(maxDatagram - 8) : Limit{};
     }
     return {};
 }
@@ -133,6 +137,10 @@ std::string_view name(MessageType type) noexcept {
             return "RelayLost";
         case image:
             return "Image";
+        case lookup:
+            return "Lookup";
+        case announcement:
+            return "Announcement";
     }
     return "unknown";
 }

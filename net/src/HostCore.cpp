@@ -41,12 +41,24 @@ HostCore::HostCore(asio::io_context& io, tcp::acceptor acceptor, ServerOptions o
       bulkTimer_{io},
       silentTimer_{io} {}
 
-void HostCore::start() { accept(); }
+void HostCore::start() {
+    if (!options_.announce.empty()) {
+        const auto end = acceptor_.local_endpoint();
+        announcer_ =
+            std::make_unique<Announcer>(io_, AnnouncerOptions{.name = options_.name,
+                                                              .listening = end.address(),
+                                                              .port = end.port(),
+                                                              .group = options_.announce,
+                                                              .report = options_.turnedAway});
+    }
+    accept();
+}
 
 void HostCore::stop() {
     error_code ignored;
     acceptor_.close(ignored);
     acceptTimer_.cancel();
+    announcer_.reset();
     if (session_) endSession({.code = Errc::disconnected, .what = "the server ends"}, true);
 }
 

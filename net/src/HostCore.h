@@ -6,6 +6,7 @@
 #include <list>
 #include <memory>
 
+#include "Announcer.h"
 #include "BulkSender.h"
 #include "Channel.h"
 #include "FrameGate.h"
@@ -29,6 +30,7 @@ public:
     HostCore(asio::io_context& io, tcp::acceptor acceptor, ServerOptions options, Inbox& inbox,
              const Progress& progress);
 
+    /// @throws Failure as Announcer
     void start();
     void stop();
     /// Nothing is left to be written.
@@ -96,6 +98,7 @@ private:
     std::unique_ptr<Session> session_;
     std::uint64_t sessionCount_ = 0;
     Timer acceptTimer_, bulkTimer_, silentTimer_;
+    std::unique_ptr<Announcer> announcer_ = {};
     TimePoint reportedAt_ = {};
 };
 

@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <random>
+
+#include "Token.h"
 
 namespace gnomon::net {
 namespace {
@@ -14,11 +15,8 @@ constexpr Milliseconds connectLimit{5000};
 /// Pings at the start of a connection come quickly, so that the clock is known at once.
 constexpr int quickPings = 8;
 constexpr Milliseconds quickInterval{10};
-
-std::uint64_t randomToken() {
-    std::random_device source;
-    return (std::uint64_t{source()} << 32U) | source();
-}
+/// How long others may take to answer a lookup before one that failed is tried again.
+constexpr Milliseconds gathering{100};
 
 }  // namespace
 
@@ -29,16 +27,21 @@ Peer::Peer(asio::io_context& io, ServerAddress address, const SyncOptions& optio
       owner_{owner},
       tls_{std::move(tls)},
       dialer_{io, tls_ != nullptr},
+      candidates_{randomToken()},
       bulk_{&packer},
       timer_{io},
-      pingTimer_{io} {}
-
-std::string Peer::label() const {
-    return fmt::format("{} ({}:{})", address_.name, address_.host, address_.port);
+      pingTimer_{io} {
+    if (address_.lookup.empty()) return;
+    finder_ = std::make_unique<Finder>(
+        io, address_.name, address_.lookup, tls_ != nullptr, [this](const std::string& what) {
+            owner_.log(LogLevel::warning, address_.name + ": " + what);
+        });
 }
 
+std::string Peer::label() const { return labelOf(address_); }
+
 void Peer::open(ServerAddress address) {
-    const bool moved = address.host != address_.host || address.port != address_.port;
+    const bool moved = !finder_ && (address.host != address_.host || address.port != address_.port);
     if (moved && state_ != ServerState::waiting)
         drop({.code = Errc::disconnected,
               .what = fmt::format("{} moved to {}:{}", label(), address.host, address.port)});
@@ -49,6 +52,70 @@ void Peer::open(ServerAddress address) {
 
 void Peer::connect() {
     if (stopping_) return;
+    if (finder_)
+        tryNext();
+    else
+        attempt();
+}
+
+/// The next of those that answered to its name; they are asked for anew where there is none.
+void Peer::tryNext(std::optional<SteadyClock::duration> after) {
+    const auto next = candidates_.next();
+    if (!next) return look();
+    address_.host = next->host;
+    address_.port = next->port;
+    if (saidFound_ != label()) {
+        saidFound_ = label();
+        const auto when =
+            after ? fmt::format(", {:.2f} ms after it was asked for", millisecondsOf(*after))
+                  : std::string{};
+        owner_.log(LogLevel::info, label() + ": found" + when);
+    }
+    attempt();
+}
+
+void Peer::look() {
+    address_.host.clear();
+    address_.port = 0;
+    state_ = ServerState::looking;
+    candidates_.begin();
+    saidVersion_ = false;
+    if (!std::exchange(saidLooking_, true))
+        owner_.log(LogLevel::info, fmt::format("{}: {}", address_.name, stateText()));
+    owner_.changed();
+    finder_->start([this](const Finder::Heard& from) { heard(from); });
+}
+
+/// Anybody may answer. One that failed before is tried after all who did not, also those that have
+/// not answered yet.
+void Peer::heard(const Finder::Heard& from) {
+    if (from.version != protocolVersion) {
+        if (state_ != ServerState::looking || std::exchange(saidVersion_, true)) return;
+        lastError_ =
+            fmt::format("{} ({}:{}): it answers with protocol version {}, expected {}",
+                        address_.name, from.host, from.port, from.version, protocolVersion);
+        unfit_ = !everMember;
+        owner_.log(LogLevel::warning, lastError_);
+        owner_.changed();
+        return;
+    }
+    candidates_.add({.host = from.host, .port = from.port}, from.instance);
+    if (const auto rivals = candidates_.rivals())
+        owner_.log(LogLevel::warning,
+                   fmt::format("{}: two servers have this name, at {}:{} and {}:{}; each needs its "
+                               "own, and one of them is used",
+                               address_.name, rivals->first.host, rivals->first.port,
+                               rivals->second.host, rivals->second.port));
+    if (state_ != ServerState::looking || !candidates_.failuresOfNext()) return;
+    finder_->settle();
+    if (*candidates_.failuresOfNext() == 0)
+        tryNext(from.after);
+    else if (!timer_.armed())
+        timer_.after(gathering, [this] { tryNext(); });
+}
+
+/// Connects to where address_ says.
+void Peer::attempt() {
     state_ = ServerState::connecting;
     owner_.changed();
     timer_.after(std::min(connectLimit, options_.startTimeout), [this] {
@@ -106,6 +173,7 @@ Result<void> Peer::welcome(std::span<const std::byte> body) {
         return agreed;
     description_ = hello->description;
     unfit_ = false;
+    candidates_.worked(place());
     state_ = ServerState::joining;
     timer_.after(std::min(connectLimit, options_.startTimeout), [this] {
         drop({.code = Errc::timeout, .what = label() + ": no answer to the bulk connection"});
@@ -145,6 +213,8 @@ void Peer::becomeMember() {
     state_ = ServerState::member;
     lastError_.clear();
     lastLogged_.clear();
+    saidLooking_ = false;
+    saidFound_.clear();
     retryDelay_ = firstRetry;
     standing.member = true;
     standing.memberSince = SteadyClock::now();
@@ -294,6 +364,8 @@ void Peer::closeAll() {
 }
 
 void Peer::drop(Error why) {
+    if (state_ == ServerState::connecting || state_ == ServerState::greeting)
+        candidates_.failed(place());
     closeAll();
     state_ = ServerState::waiting;
     lastError_ = why.text();
@@ -308,12 +380,14 @@ void Peer::drop(Error why) {
     standing = {};
     owner_.changed();
     if (stopping_) return;
-    timer_.after(retryDelay_, [this] { connect(); });
-    retryDelay_ = std::min(retryDelay_ * 2, lastRetry);
+    const bool another = candidates_.failuresOfNext().has_value();
+    timer_.after(another ? Milliseconds{0} : retryDelay_, [this] { connect(); });
+    if (!another) retryDelay_ = std::min(retryDelay_ * 2, lastRetry);
 }
 
 void Peer::stop() {
     stopping_ = true;
+    if (finder_) finder_->stop();
     if (!control_ || !control_->isOpen()) {
         closeAll();
         state_ = ServerState::waiting;
@@ -340,6 +414,11 @@ std::string Peer::stateText() const {
     switch (state_) {
         case ServerState::waiting:
             return lastError_.empty() ? "not connected" : lastError_;
+        case ServerState::looking:
+            return fmt::format("waiting for an announcement of \"{}\" on {} (udp){}{}",
+                               address_.name, address_.lookup,
+                               tls_ ? "" : ", from this machine only: there is no cluster key",
+                               lastError_.empty() ? "" : "; " + lastError_);
         case ServerState::connecting:
             return lastError_.empty() ? "connecting" : lastError_ + " (trying again)";
         case ServerState::greeting:

@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "BulkSender.h"
+#include "Candidates.h"
 #include "Channel.h"
 #include "ClockFilter.h"
 #include "Dialer.h"
+#include "Finder.h"
 #include "Timer.h"
 
 namespace gnomon::net {
@@ -59,11 +61,12 @@ struct Standing {
     int relays = 0;            ///< servers it passes payloads on to
 };
 
-/// One server as the client sees it: connects, greets, connects again when it was lost, and keeps
-/// the clock. What frames it gets is the hub's business.
+/// One server as the client sees it: looks it up where that is asked for, connects, greets, does so
+/// again when it was lost, and keeps the clock. What frames it gets is the hub's business.
 class Peer final : public Receiver {
 public:
     /// @param tls  null: in the clear, and to this machine only
+    /// @throws Failure Errc::config: no such group for lookups
     Peer(asio::io_context& io, ServerAddress address, const SyncOptions& options, PeerOwner& owner,
          std::shared_ptr<const TlsContext> tls, Packer& packer);
 
@@ -119,6 +122,11 @@ private:
     using Connected = void (Peer::*)(tcp::socket socket);
 
     void connect();
+    void attempt();
+    void look();
+    void heard(const Finder::Heard& from);
+    void tryNext(std::optional<SteadyClock::duration> after = {});
+    Place place() const { return {.host = address_.host, .port = address_.port}; }
     void dial(Connected then);
     void greet(tcp::socket socket);
     void awaitHello();
@@ -140,6 +148,11 @@ private:
     bool stopping_ = false;
     std::uint64_t token_ = 0;
     Dialer dialer_;
+    std::unique_ptr<Finder> finder_;  // null: where the server is was said
+    Candidates candidates_;
+    bool saidLooking_ = false;  // since it was a member
+    std::string saidFound_;     // the same
+    bool saidVersion_ = false;  // in this lookup
     std::shared_ptr<Channel> control_;
     std::shared_ptr<Channel> bulkChannel_;
     BulkSender bulk_;

@@ -67,7 +67,8 @@ FrameLoop::FrameLoop(Options options) : options_{std::move(options)} {
                             .name = options_.name,
                             .description = description,
                             .exitWithClient = options_.exitWithClient,
-                            .key = key};
+                            .key = key,
+                            .announce = options_.announce};
     made.turnedAway = [](const std::string& why) { std::fprintf(stderr, "%s\n", why.c_str()); };
     host_ = std::make_unique<net::ServerHost>(std::move(made), types_);
 }

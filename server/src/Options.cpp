@@ -1,5 +1,7 @@
 #include "Options.h"
 
+#include <gnomon/net/Lookup.h>
+
 #include <CLI/CLI.hpp>
 
 namespace gnomon::server {
@@ -18,12 +20,25 @@ bool parseOptions(int argc, char** argv, Options& options, int& exitCode) {
     program.add_option("--key", options.key,
                        "cluster key (gnomon keygen): only who has it may connect; without one, and "
                        "none in ~/.config/gnomon/cluster.key, only this machine may");
+    auto* announce =
+        program
+            .add_option("--announce", options.announce,
+                        "tell who looks up the name where the server is, on the interfaces that it "
+                        "listens on; GROUP:PORT is the wall's cluster.lookup (default: " +
+                            std::string{net::defaultLookupGroup} + ")")
+            ->type_name("[GROUP:PORT]")
+            ->expected(0, 1);
     program.add_flag("--exit-with-input", options.exitWithInput,
                      "end when standard input does (servers started from another machine)");
     program.add_flag("--exit-with-client", options.exitWithClient,
                      "end when the client goes away (local walls)");
     try {
         program.parse(argc, argv);
+        if (announce->count() > 0 && options.announce.empty())
+            options.announce = net::defaultLookupGroup;
+        if (!options.announce.empty())
+            if (const auto group = net::parseLookupGroup(options.announce); !group)
+                throw CLI::ValidationError("--announce", group.error().what);
         const auto colon = listen.rfind(':');
         std::size_t used = 0;
         if (colon == std::string::npos || colon + 1 == listen.size())

@@ -12,7 +12,8 @@ struct Options {
     std::uint16_t port = 0;        ///< 0: any free one; reported on standard output
     std::string backend = "auto";  ///< egl osmesa glfw none auto
     int gpu = -1;
-    std::string key = {};  ///< cluster key file; empty: the usual one, where one is needed
+    std::string key = {};       ///< cluster key file; empty: the usual one, where one is needed
+    std::string announce = {};  ///< GROUP:PORT where the name can be looked up; empty: it cannot
     bool exitWithClient = false;
     bool exitWithInput = false;
 };

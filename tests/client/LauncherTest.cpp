@@ -211,6 +211,15 @@ TEST(LaunchCommands, ServersElsewhereFindTheUsualKeyThemselves) {
     EXPECT_NE(commands[1].text().find("--listen :::7430"), std::string::npos);
 }
 
+TEST(LaunchCommands, ServersThatAreLookedUpAreNotStarted) {
+    auto config = threeServers(config::Launch::ssh);
+    config.cluster.lookup = "239.255.74.30:7430";
+    config.servers[0] = {.name = "left", .host = ""};
+    const auto commands = launchCommands(config, {});
+    ASSERT_EQ(commands.size(), 2U);
+    EXPECT_EQ(commands[0].server, "far");
+}
+
 TEST(LaunchCommands, ServersShareTheCores) {
     EXPECT_EQ(rasterizerThreads(1, 2), 2U);
     EXPECT_EQ(rasterizerThreads(2, 2), 0U);

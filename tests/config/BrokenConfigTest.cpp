@@ -204,6 +204,22 @@ constexpr Broken brokenWalls[] = {
      .from = "\"east\"",
      .to = "\"-rf\"",
      .error = "wall.toml:25:8: server \"-rf\": name is \"-rf\", must be 1 to 64 letters"},
+    {.name = "noHostAndNoLookup",
+     .from = "host = \"pc2\"",
+     .to = "host = \"\"",
+     .error =
+         "wall.toml:26:8: server \"east\": host is \"\", must be a host name or an IP address, "
+         "for [cluster] has no lookup"},
+    {.name = "lookupNoGroup",
+     .from = "[sync]",
+     .to = "[cluster]\nlookup = \"10.0.0.1:7430\"\n[sync]",
+     .error =
+         "wall.toml:6:10: cluster: lookup is \"10.0.0.1:7430\", must be an IPv4 multicast group "
+         "and a port, such as 239.255.74.30:7430"},
+    {.name = "lookupNoPort",
+     .from = "[sync]",
+     .to = "[cluster]\nlookup = \"239.255.74.30\"\n[sync]",
+     .error = "wall.toml:6:10: cluster: lookup is \"239.255.74.30\", must be"},
     {.name = "hostAnOption",
      .from = "\"pc2\"",
      .to = "\"-oProxyCommand=x\"",

@@ -40,6 +40,7 @@ key = "keys/wall.key"
 launch = "ssh"
 server = "/opt/gnomon/bin/gnomon-server"
 options = ["-p", "2222"]
+lookup = "239.1.2.3:9"
 [shadow]
 on = false
 technique = "lispsm+evsm"
@@ -114,6 +115,32 @@ TEST(Load, EveryKeySurvivesBeingWrittenAndRead) {
     const auto again = parseConfig(toToml(config), "written.toml");
     ASSERT_TRUE(again) << again.error().text() << "\n" << toToml(config);
     EXPECT_EQ(*again, config);
+}
+
+TEST(Load, ServersWithoutAHostAreLookedUpWhereTheWallSaysSo) {
+    const auto servers = [](const std::string& lookup, const std::string& host) {
+        auto text = replaced(smallWall, "host = \"pc2\"\n", host);
+        text = replaced(text, "[shadow]\n", "[cluster]\n" + lookup + "[shadow]\n");
+        text +=
+            "[[screen]]\nname = \"side\"\nlower_left = [-1, 1, -1]\nlower_right = [1, 1, -1]\n"
+            "upper_left = [-1, 2, -1]\n[[server_grid]]\nscreen = \"side\"\nwindow = [64, 64]\n";
+        const auto config = parseConfig(text, "wall.toml");
+        EXPECT_TRUE(config) << config.error().text();
+        const auto again = parseConfig(toToml(*config), "written.toml");
+        EXPECT_TRUE(again) << again.error().text();
+        EXPECT_EQ(*again, *config);
+        return config->servers;
+    };
+    const std::string on = "lookup = \"239.255.74.30:7430\"\n";
+    const auto found = servers(on, "");
+    EXPECT_FALSE(isLookedUp(found[0]));
+    EXPECT_EQ(found[0].port, defaultPort);
+    for (const auto i : {1U, 2U}) {
+        EXPECT_TRUE(isLookedUp(found[i])) << i;
+        EXPECT_EQ(found[i].port, 0) << i;
+    }
+    EXPECT_EQ(servers(on, "host = \"localhost\"\n")[1].host, "localhost");
+    for (const auto i : {1U, 2U}) EXPECT_EQ(servers("", "")[i].host, "localhost") << i;
 }
 
 TEST(Load, TheKeyIsLookedForBesideTheWall) {

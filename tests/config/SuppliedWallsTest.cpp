@@ -79,6 +79,7 @@ TEST(SuppliedWalls, HaveTheServersTheirNamesPromise) {
     EXPECT_EQ(servers("local-2x2.toml"), 4U);
     EXPECT_EQ(servers("local-4x1.toml"), 4U);
     EXPECT_EQ(servers("local-2x2-stereo.toml"), 8U);
+    EXPECT_EQ(servers("named-2x1.toml"), 2U);
     EXPECT_EQ(servers("wall-6x4-stereo.toml"), 48U);
     EXPECT_EQ(servers("cave-4.toml"), 8U);
 }

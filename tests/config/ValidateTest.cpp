@@ -58,6 +58,16 @@ TEST(Validate, CornersMayBeOffARightAngleByWhatMeasuringGives) {
     EXPECT_FALSE(validate(screen).empty());
 }
 
+TEST(Validate, AServerThatIsLookedUpTellsItsPortItself) {
+    const auto textOf = [](int port) {
+        return allText(validate(Server{.name = "east", .host = "", .port = port}));
+    };
+    EXPECT_NE(textOf(7430).find("server \"east\": port is 7430, and a server without a host says"),
+              std::string::npos)
+        << textOf(7430);
+    EXPECT_EQ(textOf(0).find("port"), std::string::npos) << textOf(0);
+}
+
 TEST(IsLocal, KnowsThisMachine) {
     for (const char* host : {"localhost", "127.0.0.1", "127.0.1.1", "::1"}) {
         EXPECT_TRUE(isLocal(host)) << host;

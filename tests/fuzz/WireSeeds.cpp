@@ -1,5 +1,6 @@
 #include <gnomon/scene/Types.h>
 
+#include "Datagrams.h"
 #include "KnownKey.h"
 #include "Messages.h"
 #include "Seeds.h"
@@ -15,7 +16,21 @@ void addMessages(const Seeds& seeds, const Messages& messages, std::index_sequen
 
 }  // namespace
 
+/// A script of datagrams: see LookupFuzz.cpp for the kinds.
+void addLookupSeeds(const Seeds& seeds) {
+    const auto ask = net::datagram(net::wire::Lookup::padded(77, "left"));
+    const auto right = net::datagram(net::wire::Lookup::padded(77, "right"));
+    const auto answer = [](std::uint64_t instance) {
+        return net::datagram(net::wire::Announcement{
+            .token = 77, .instance = instance, .port = 7430, .server = "left"});
+    };
+    seeds.add("lookup", "asked", Script{{0, ask}, {0, right}, {4, ask}});
+    seeds.add("lookup", "answered", Script{{1, answer(1)}, {0x11, answer(2)}, {2, {}}, {3, {}}});
+    seeds.add("lookup", "again", Script{{1, answer(1)}, {2, {}}, {0x21, answer(1)}, {2, {}}});
+}
+
 void addWireSeeds(const Seeds& seeds) {
+    addLookupSeeds(seeds);
     const std::vector<std::byte> bytes(40, std::byte{7});
     const field::Hash128 hash{.low = 3, .high = 4};
     const auto schema = fuzzTypes().schema();
@@ -46,6 +61,8 @@ void addWireSeeds(const Seeds& seeds) {
         {.token = 7},
         {.token = 7, .why = "refused"},
         {.n = 5, .list = {{.id = 1, .digest = 2}, {.id = 3}}},
+        net::wire::Lookup::padded(77, "left"),
+        {.token = 77, .instance = 5, .port = 7430, .server = "left"},
     };
     addMessages(seeds, messages, std::make_index_sequence<messageCount>{});
     seeds.add("wire", "schema", schemaNumber, schema);

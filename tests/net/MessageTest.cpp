@@ -99,6 +99,9 @@ std::vector<Sample> samples() {
                                     .channels = 3,
                                     .offset = 100,
                                     .tail = tail}),
+        sample("lookup", wire::Lookup::padded(77, "left")),
+        sample("announcement",
+               wire::Announcement{.token = 77, .instance = 5, .port = 7430, .server = "left"}),
     };
 }
 

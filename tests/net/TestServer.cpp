@@ -20,7 +20,8 @@ TestServer::TestServer(std::string name, TestServerOptions options)
                        .description = "test server",
                        .exitWithClient = options_.exitWithClient,
                        .key = options_.key,
-                       .handshakeTimeout = options_.handshakeTimeout};
+                       .handshakeTimeout = options_.handshakeTimeout,
+                       .announce = options_.announce};
     made.turnedAway = [this](const std::string& why) {
         {
             const std::lock_guard lock{mutex_};

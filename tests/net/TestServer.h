@@ -58,6 +58,7 @@ struct TestServerOptions {
     bool lieAboutDigest = false;
     int images = 0;  // pictures sent for a captured frame
     SharedKey key = usualKey();
+    std::string announce = {};  // group
 };
 
 /// A server that renders nothing: a thread with ServerHost's main loop.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "Subject.h"
 #include "Text.h"
 
 namespace gnomon::config {
@@ -52,8 +53,10 @@ std::vector<Row> serverRows(const Config& config) {
     std::vector<Row> rows = {
         {"server", "host", "port", "gpu", "window", "viewport", "screen", "tile", "eye"}};
     for (const Server& server : config.servers) {
-        Row row = {server.name, server.host,
-                   server.port == 0 ? "any" : std::to_string(server.port)};
+        Row row = {server.name, hostText(server),
+                   isLookedUp(server) ? "-"
+                   : server.port == 0 ? "any"
+                                      : std::to_string(server.port)};
         for (const Window& window : server.windows) {
             row.resize(3);
             row.push_back(gpuText(gpuOf(server, window)));
@@ -141,6 +144,8 @@ std::string describe(const Config& config) {
                                 shadow.mapSize ? fmt::to_string(*shadow.mapSize) : "as the screen")
                   : std::string{"off"});
     text += table(serverRows(config));
+    if (config.cluster.lookup)
+        text += fmt::format("servers are looked up on {} (udp)\n", *config.cluster.lookup);
     text += "\nfit groups (all tiles and eyes of a screen share its shadow fits)\n";
     text += table(screenRows(config));
     return text;

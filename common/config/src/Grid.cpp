@@ -97,8 +97,7 @@ public:
         Server server;
         server.name = *filledIn(grid_.name, cell);
         server.host = *filledIn(grid_.host, cell);
-        server.port =
-            grid_.port.empty() ? (isLocal(server.host) ? 0 : defaultPort) : forEye(grid_.port, eye);
+        server.port = grid_.port.empty() ? portOf(server.host) : forEye(grid_.port, eye);
         server.gpu = forEye(grid_.gpu, eye);
         server.origin = grid_.origin;
         Window window{.size = grid_.window,

@@ -42,4 +42,7 @@ void expand(const ServerGrid& grid, Config& config, std::vector<Finding>& findin
 
 inline constexpr std::size_t maxServers = 1024;
 
+/// Of a server on @p host that says none.
+inline int portOf(std::string_view host) { return host.empty() || isLocal(host) ? 0 : defaultPort; }
+
 }  // namespace gnomon::config

@@ -41,10 +41,13 @@ public:
         each(root, "screen", [&](const Node& node) {
             read(node, config.screens.emplace_back(), subject("screen", peek(node, "name")));
         });
-        each(root, "server", [&](const Node& node) { config.servers.push_back(server(node)); });
+        each(root, "server", [&](const Node& node) {
+            config.servers.push_back(server(node, config.cluster.lookup.has_value()));
+        });
         each(root, "server_grid", [&](const Node& node) {
             ServerGrid grid;
             if (!read(node, grid, subject("server_grid of screen", peek(node, "screen")))) return;
+            if (config.cluster.lookup && node.find("host") == nullptr) grid.host.clear();
             expand(grid, config, findings_);
         });
         place(config);
@@ -149,11 +152,12 @@ private:
         }
     }
 
-    Server server(const Node& node) {
+    Server server(const Node& node, bool lookup) {
         Server server;
         const std::string serverText = subject("server", peek(node, "name"));
         read(node, server, serverText);
-        if (node.find("port") == nullptr && !isLocal(server.host)) server.port = defaultPort;
+        if (lookup && node.find("host") == nullptr) server.host.clear();
+        if (node.find("port") == nullptr) server.port = portOf(server.host);
         each(node, "window", [&](const Node& windowNode) {
             Window& window = server.windows.emplace_back();
             const std::string windowText = serverText + ", window";

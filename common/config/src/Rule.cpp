@@ -1,8 +1,10 @@
 #include "Rule.h"
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 namespace gnomon::config {
@@ -77,9 +79,23 @@ std::string hostExpectation(std::string_view value) {
     const auto allowed = [](char c) {
         return isAlnum(c) || c == '.' || c == '_' || c == '-' || c == ':' || c == '%';
     };
-    const bool good = !value.empty() && value.size() <= 253 && value.front() != '-' &&
-                      std::all_of(value.begin(), value.end(), allowed);
+    const bool good = value.empty() || (value.size() <= 253 && value.front() != '-' &&
+                                        std::all_of(value.begin(), value.end(), allowed));
     return good ? std::string{} : "must be a host name or an IP address";
+}
+
+std::string groupExpectation(std::string_view value) {
+    const auto colon = value.rfind(':');
+    in_addr address{};
+    int port = 0;
+    if (colon != std::string_view::npos &&
+        ::inet_pton(AF_INET, std::string{value.substr(0, colon)}.c_str(), &address) == 1 &&
+        IN_MULTICAST(ntohl(address.s_addr))) {
+        const char* end = value.data() + value.size();
+        const auto [stop, error] = std::from_chars(value.data() + colon + 1, end, port);
+        if (error == std::errc{} && stop == end && port >= 1 && port <= 65535) return {};
+    }
+    return "must be an IPv4 multicast group and a port, such as 239.255.74.30:7430";
 }
 
 std::string programExpectation(std::string_view value) {

@@ -37,7 +37,8 @@ std::string brokenText(std::string_view subject, std::string_view key, std::stri
 
 std::string nameExpectation(std::string_view value);       ///< of servers and screens
 std::string titleExpectation(std::string_view value);      ///< any text on one line, not empty
-std::string hostExpectation(std::string_view value);       ///< host name or address
+std::string hostExpectation(std::string_view value);       ///< host name, address, or nothing
+std::string groupExpectation(std::string_view value);      ///< IPv4 multicast group and port
 std::string programExpectation(std::string_view value);    ///< a path or a name, no option
 std::string techniqueExpectation(std::string_view value);  ///< FIT[+FILTER] or a word
 std::string samplesExpectation(double value);

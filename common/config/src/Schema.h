@@ -73,6 +73,7 @@ struct Schema<Cluster> {
         Field{"launch", &Cluster::launch, anything},
         Field{"server", &Cluster::server, Rule{.text = programExpectation}},
         Field{"options", &Cluster::options, Rule{.text = titleExpectation}},
+        Field{"lookup", &Cluster::lookup, Rule{.text = groupExpectation}},
         Field{"relay", &Cluster::relay, Rule{.min = 0, .max = 64, .unit = "servers"}},
         Field{"compress", &Cluster::compress, anything},
     };
@@ -174,7 +175,7 @@ struct Schema<Server> {
     static constexpr std::array<std::string_view, 1> nested = {"window"};
     static constexpr std::tuple fields{
         Field{"name", &Server::name, Rule{.required = true, .text = nameExpectation}},
-        Field{"host", &Server::host, Rule{.text = hostExpectation}},
+        Field{"host", &Server::host, Rule{.always = true, .text = hostExpectation}},
         Field{"port", &Server::port, Rule{.min = 0, .max = 65535, .always = true}},
         Field{"gpu", &Server::gpu, Rule{.min = -1, .max = 63}},
     };

@@ -65,7 +65,7 @@ void checkServers(const Config& config, std::vector<Finding>& findings) {
             }
         }
         for (const Window& window : server.windows) {
-            if (!window.fullscreen) continue;
+            if (!window.fullscreen || isLookedUp(server)) continue;
             const auto [it, isNew] =
                 monitors.emplace(std::tuple{host, gpuOf(server, window), window.monitor}, &server);
             if (isNew) continue;

@@ -11,5 +11,9 @@ namespace gnomon::config {
 std::string subject(std::string_view kind, std::string_view name);
 inline std::string subject(const Screen& screen) { return subject("screen", screen.name); }
 inline std::string subject(const Server& server) { return subject("server", server.name); }
+/// Where it is.
+inline std::string hostText(const Server& server) {
+    return isLookedUp(server) ? std::string{"looked up"} : server.host;
+}
 
 }  // namespace gnomon::config

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "Room.h"
+#include "Subject.h"
 
 namespace gnomon::config {
 namespace {
@@ -176,7 +177,7 @@ private:
         for (const Band& shownBy : bands) {
             const Server& server = *shownBy.server;
             body_ += rectangle(band, hostColour(colours_[server.host]), "#444444");
-            std::vector<std::string> lines = {server.name, server.host};
+            std::vector<std::string> lines = {server.name, hostText(server)};
             if (shownBy.gpu >= 0) lines.push_back(fmt::format("gpu {}", shownBy.gpu));
             lines.push_back(fmt::format("{},{} {}", at[0], at[1], name(shownBy.eye)));
             body_ += label(band, lines);

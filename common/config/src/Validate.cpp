@@ -157,7 +157,13 @@ std::vector<Finding> validate(const Server& server) {
     const auto complain = [&](std::string_view key, const std::string& what) {
         findings.push_back({.place = server.origin.of(key), .what = subject(server) + ": " + what});
     };
-    if (server.port == 0 && !isLocal(server.host)) {
+    if (isLookedUp(server)) {
+        if (server.port != 0) {
+            complain("port", fmt::format("port is {}, and a server without a host says where it "
+                                         "listens when it is looked up: leave it out",
+                                         server.port));
+        }
+    } else if (server.port == 0 && !isLocal(server.host)) {
         complain("port",
                  fmt::format("port is 0, must be 1 to 65535 on another machine ({})", server.host));
     }
@@ -183,7 +189,13 @@ std::vector<Finding> validate(const Config& config) {
     add(validate(config.shadow));
     add(validate(config.render));
     for (const Screen& screen : config.screens) add(validate(screen));
-    for (const Server& server : config.servers) add(validate(server));
+    for (const Server& server : config.servers) {
+        add(validate(server));
+        if (!isLookedUp(server) || config.cluster.lookup) continue;
+        all.push_back({.place = server.origin.of("host"),
+                       .what = subject(server) + ": host is \"\", must be a host name or an IP "
+                                                 "address, for [cluster] has no lookup"});
+    }
     return all;
 }
 

@@ -34,7 +34,8 @@ public:
     ClientHub& operator=(const ClientHub&) = delete;
 
     /// Adds a server, or tells the new address of one that was restarted. Returns at once; the hub
-    /// tries until shutdown, 50 ms to 2 s apart.
+    /// tries until shutdown, 50 ms to 2 s apart. One that is looked up is asked for anew whenever
+    /// it was lost. @throws Failure Errc::config: no such group for lookups
     void connect(ServerAddress address);
 
     /// Waits until every server takes part. The error names those that do not, and why.

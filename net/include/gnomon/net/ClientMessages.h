@@ -3,6 +3,7 @@
 #include <gnomon/net/Codec.h>
 #include <gnomon/net/MessageType.h>
 
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -280,6 +281,46 @@ struct Snapshot {
         return offset > total || tail.size() > total - offset || (tail.empty() && total != 0)
                    ? "a part that lies outside its snapshot"
                    : nullptr;
+    }
+};
+
+/// By UDP, to a group: who has this name? So long that no answer is longer: nobody gets more out of
+/// a server than went in. Has this form in every version.
+struct Lookup {
+    static constexpr MessageType type = MessageType::lookup;
+    static constexpr std::string_view name = "Lookup";
+    static constexpr bool hasTail = true;
+    static constexpr std::size_t bodyBytes = maxDatagram - 8;
+    static constexpr std::size_t fixedBytes = 4 + 4 + 8 + 4;
+    std::uint32_t magic = protocolMagic;
+    std::uint32_t version = protocolVersion;  ///< the client's
+    std::uint64_t token = 0;                  ///< comes back with the answer
+    std::string server = {};
+    std::span<const std::byte> tail = {};  ///< zeros, up to bodyBytes
+
+    template <class Self, class Io>
+    static void fields(Self& self, Io& io) {
+        io(self.magic);
+        io(self.version);
+        io(self.token);
+        io(self.server);
+    }
+    const char* wrong() const {
+        if (magic != protocolMagic) return "not from a Gnomon program";
+        if (server.empty() || server.size() > maxLookupName)
+            return "a name of a length out of range";
+        if (fixedBytes + server.size() + tail.size() != bodyBytes) return "not as long as all are";
+        for (const std::byte byte : tail)
+            if (byte != std::byte{0}) return "something behind its name";
+        return nullptr;
+    }
+    /// @pre whom.size() <= maxLookupName
+    static Lookup padded(std::uint64_t token, std::string whom) {
+        static constexpr std::array<std::byte, bodyBytes> zeros{};
+        const std::size_t size = fixedBytes + whom.size();
+        return {.token = token,
+                .server = std::move(whom),
+                .tail = std::span{zeros}.first(bodyBytes - size)};
     }
 };
 

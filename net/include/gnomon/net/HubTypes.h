@@ -17,7 +17,13 @@ struct ServerAddress {
     std::string name = {};  ///< unique on the wall
     std::string host = {};  ///< name or numeric address
     std::uint16_t port = 0;
+    /// Where to ask for host and port by the name, see parseLookupGroup(): they are unknown before
+    /// that, and again whenever the server was lost. Empty: they are known.
+    std::string lookup = {};
 };
+
+/// "left (127.0.0.1:4711)", or "left (looked up)" as long as nobody has answered.
+std::string labelOf(const ServerAddress& server);
 
 struct SyncOptions {
     /// How long the wall waits for a server after the first one is ready.
@@ -82,6 +88,7 @@ struct TileImage {
 
 enum class ServerState : std::uint8_t {
     waiting,     ///< not connected; tried again after a while
+    looking,     ///< its name is asked for by UDP
     connecting,  ///< TCP
     greeting,    ///< Hello sent, not answered yet
     joining,     ///< it loads; the wall does not wait for it

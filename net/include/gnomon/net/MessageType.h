@@ -19,6 +19,7 @@ enum class MessageType : std::uint32_t {
     payload = 16,
     snapshot = 17,
     packed = 18,
+    lookup = 32,
     serverHello = 64,
     refused = 65,
     depth = 66,
@@ -30,6 +31,7 @@ enum class MessageType : std::uint32_t {
     relayLost = 72,
     digests = 73,
     image = 80,
+    announcement = 96,
 };
 
 /// What a connection may carry towards its reader.
@@ -41,6 +43,8 @@ enum class Route : std::uint8_t {
     toRelay,        // back to that one
     toClientControl,
     toClientBulk,
+    toServerLookup,  // by UDP, to a group
+    toClientLookup,  // by UDP
 };
 
 /// Whether payloads and snapshots are compressed on their way.
@@ -61,6 +65,11 @@ inline constexpr std::uint64_t maxPayloadBytes = std::uint64_t{4} << 30U;
 /// Most containers whose digests one message tells.
 inline constexpr std::size_t maxDigests = std::size_t{1} << 20U;
 inline constexpr std::uint64_t maxImageBytes = std::uint64_t{512} << 20U;
+
+/// Most bytes of a datagram, length and type included; so long is every lookup.
+inline constexpr std::size_t maxDatagram = 128;
+/// Longest name of a server that can be asked for, bytes.
+inline constexpr std::size_t maxLookupName = 64;
 
 /// Greatest allowed body, in bytes; nothing where the message may not come on this route.
 struct Limit {

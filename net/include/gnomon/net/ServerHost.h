@@ -25,6 +25,8 @@ struct ServerOptions {
     std::chrono::milliseconds handshakeTimeout{5000};
     /// A client that sends nothing for so long is gone. (It pings several times a second.)
     std::chrono::milliseconds silentTimeout{30000};
+    /// Who asks this group for the name is told the port, see parseLookupGroup(). Empty: nobody is.
+    std::string announce = {};
     /// Most bytes of payloads kept for a session.
     std::uint64_t payloadBudget = std::uint64_t{16} << 30U;
     /// Told about everyone who was turned away, once a second at most, for people who run the
@@ -41,8 +43,8 @@ class ServerHost {
 public:
     /// Listens at once.
     /// @param types  learns the client's types within next(), on the calling thread.
-    /// @throws Failure Errc::config: the address is malformed or taken, or is not a loopback one.
-    ///         The latter needs a key.
+    /// @throws Failure Errc::config: the address is malformed or taken, or is not a loopback one,
+    ///         which needs a key; or it cannot be announced.
     ServerHost(ServerOptions options, field::TypeRegistry& types);
     ~ServerHost();
     ServerHost(const ServerHost&) = delete;

@@ -296,4 +296,33 @@ struct Image {
     }
 };
 
+/// By UDP, to who sent a Lookup: where the server is. Its address is the datagram's. Has this form
+/// in every version.
+struct Announcement {
+    static constexpr MessageType type = MessageType::announcement;
+    static constexpr std::string_view name = "Announcement";
+    std::uint32_t magic = protocolMagic;
+    std::uint32_t version = protocolVersion;  ///< the server's
+    std::uint64_t token = 0;                  ///< copied from the Lookup
+    std::uint64_t instance = 0;               ///< of the process, by chance
+    std::uint16_t port = 0;                   ///< TCP
+    std::string server = {};
+
+    template <class Self, class Io>
+    static void fields(Self& self, Io& io) {
+        io(self.magic);
+        io(self.version);
+        io(self.token);
+        io(self.instance);
+        io(self.port);
+        io(self.server);
+    }
+    const char* wrong() const {
+        if (magic != protocolMagic) return "not from a Gnomon program";
+        if (server.empty() || server.size() > maxLookupName)
+            return "a name of a length out of range";
+        return port == 0 ? "port 0" : nullptr;
+    }
+};
+
 }  // namespace gnomon::net::wire

@@ -64,6 +64,8 @@ struct Cluster {
     std::vector<std::string> options = {};  ///< for ssh, srun or mpirun, before anything else
     int relay = 0;  ///< servers that anyone sends payloads to; 0: the client sends to all
     Compress compress = Compress::automatic;  ///< of payloads and snapshots
+    /// GROUP:PORT, where servers without a host are asked for by name. Absent: those are local.
+    std::optional<std::string> lookup = {};
     Origin origin = {};
     bool operator==(const Cluster&) const = default;
 };
@@ -146,8 +148,8 @@ struct Window {
 /// One render process.
 struct Server {
     std::string name = {};
-    std::string host = "localhost";
-    int port = 0;  ///< 0: chosen by the system, on this machine only
+    std::string host = "localhost";  ///< empty: looked up by name, see Cluster::lookup
+    int port = 0;  ///< 0: chosen by the system, on this machine only; or looked up
     int gpu = -1;  ///< -1: the system's choice
     std::vector<Window> windows = {};
     Origin origin = {};
@@ -182,6 +184,8 @@ std::optional<std::size_t> screenIndex(const Config& config, std::string_view sc
 
 /// localhost, 127.x.x.x or ::1.
 bool isLocal(std::string_view host);
+/// Whether nobody knows where it is before it answers to its name.
+inline bool isLookedUp(const Server& server) { return server.host.empty(); }
 
 /// The GPU a window is on: its own, else its server's; -1: the system's choice.
 int gpuOf(const Server& server, const Window& window);
