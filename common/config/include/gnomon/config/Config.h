@@ -50,7 +50,8 @@ struct Sync {
     double startTimeout = 60.0;  ///< seconds for loading and shader compilation
     OnTimeout onTimeout = OnTimeout::drop;
     int pipeline = 1;  ///< frames in flight
-    /// Windows swap at one refresh where drivers can. Absent: where the wall waits for late servers.
+    /// Windows swap at one refresh where drivers can. Absent: where the wall waits for late
+    /// servers.
     std::optional<bool> swapGroup = {};
     Origin origin = {};
     bool operator==(const Sync&) const = default;
