@@ -16,33 +16,46 @@ std::string_view blurCommon() noexcept {
 // the margin. And how many of its deviations a kernel goes.
 const float widest = 24.0, goesFor = 2.5;
 
-// Of one pass. Kernels are shares of the widest deviation: x: each way, yz: along the longer axis
-// besides, from one half; w: both together.
+// A pixel of a surface, as all passes read it. x: bits of its depth. y: the normal in eye space, 10 bits
+// each way, as on an equal-area map of the sphere whose middle faces the eye: angles are distances on
+// it, but for a third. And 12 bits of the factor, from 1; 0 where the light does not shine, which no
+// kernel takes in.
+const float steps = 4094.0;
+vec2 placeOf(uint bits) { return vec2(bits & 0x3ffu, bits >> 10 & 0x3ffu); }
+float codeOf(uint bits) { return float(bits >> 20); }
+
+// Kernels are shares of the widest deviation: x: each way, yz: along the longer axis besides, from one
+// half. w, 8 bits each: both together, and 16 times the binary logarithm of the kernel's radius in
+// texels, which are as many samples as an edge in a map is worth.
 vec2 deviationsOf(vec4 kernel, vec4 pass) {
     return widest * (kernel.x * pass.xy + (kernel.yz * 2.0 - 1.0) * pass.z);
 }
+float packedReach(float reach, float texels) {
+    return (ceil(reach * 255.0) * 256.0 + floor(16.0 * log2(clamp(texels, 1.0, 6e4)) + 0.5)) /
+           65535.0;
+}
+float texelsOf(float packed_) {
+    return exp2(float(uint(packed_ * 65535.0 + 0.5) & 0xffu) * 0.0625);
+}
 // How far all passes go at the most, pixels; a nearer neighbour's kernel may be a little wider.
-float reachOf(float kernel) { return 1.25 * goesFor * widest * kernel + 1.0; }
+float reachOf(float packed_) {
+    float reach = float(uint(packed_ * 65535.0 + 0.5) >> 8) / 255.0;
+    return 1.25 * goesFor * widest * reach + 1.0;
+}
 )glsl";
 }
 
 std::string_view meshUnblurred() noexcept {
     return R"glsl(
 layout(location = 4) uniform mat3 eyeFromOrigin;
-// Bits of the depth; normal and how many samples: see surfaceBits().
-layout(location = 0) out uvec2 outSurface;
-// See deviationsOf().
-layout(location = 1) out vec4 outKernel[LIGHT_COUNT];
-// One half and half of the factor; 0 where the light does not shine, which no kernel takes in.
-layout(location = 1 + LIGHT_COUNT) out float outFactor[LIGHT_COUNT];
+layout(location = 0) out uvec2 outSurface[LIGHT_COUNT];
+layout(location = LIGHT_COUNT) out vec4 outKernel[LIGHT_COUNT];
+layout(location = 2 * LIGHT_COUNT) out float outFactor[LIGHT_COUNT];
 
-// Normal in eye space, 12 bits each, as on an equal-area map of the sphere whose middle faces the eye:
-// angles are distances on it, but for a third. 8 bits: 16 times the binary logarithm of the kernel's
-// radius in texels, which are as many samples as an edge in a map is worth.
-uint surfaceBits(vec3 normal, float texels) {
+uint normalBits(vec3 normal) {
     vec2 place = normal.xy * inversesqrt(2.0 + 2.0 * max(normal.z, -0.9999));
-    uvec3 bits = uvec3(vec3(place * 2047.0 + 2047.5, 16.0 * log2(clamp(texels, 1.0, 6e4)) + 0.5));
-    return bits.x | bits.y << 12 | bits.z << 24;
+    uvec2 bits = uvec2(place * 511.0 + 511.5);
+    return bits.x | bits.y << 10;
 }
 
 // @param right, up  steps of a pixel on the surface
@@ -80,21 +93,24 @@ vec4 kernelAt(int first, ShadowPoint point, vec3 right, vec3 up) {
     more.y = xy < 0.0 ? -more.y : more.y;
     float length_ = length(more);
     more *= min(1.0, (widest - each) / max(length_, 1e-6));
-    return vec4(each, more * 0.5 + 0.5 * widest, each + min(length_, widest - each)) / widest;
+    float both = (each + min(length_, widest - each)) / widest;
+    return vec4(each / widest, more * (0.5 / widest) + 0.5, packedReach(both, kernelTexels));
 }
 
-void unblurred(int i, ShadowPoint point, vec3 face, vec3 right, vec3 up, out vec4 kernel,
-               out float factor) {
+void unblurred(int i, ShadowPoint point, vec3 face, vec3 right, vec3 up, uint normal,
+               out uvec2 surface, out vec4 kernel, out float factor) {
     vec3 toLight;
     lightReaching(i, vPosition, toLight);
     bool shines = dot(face, toLight) > 0.0 && shinesAt(i, vPosition);
     factor = 1.0;
     kernel = vec4(0.0, 0.5, 0.5, 0.0);
+    kernelTexels = 0.0;
     if (shines && lights[i].ambient.w > 0.0) {
         factor = shadowFactor(i * MAPS_PER_LIGHT, point);
         kernel = kernelAt(i * MAPS_PER_LIGHT, point, right, up);
     }
-    factor = shines ? 0.5 + 0.5 * factor : 0.0;
+    uint code = shines ? uint(factor * steps + 1.5) : 0u;
+    surface = uvec2(floatBitsToUint(gl_FragCoord.z), normal | code << 20);
 }
 
 void main() {
@@ -103,40 +119,42 @@ void main() {
     vec3 right = dFdx(vPosition), up = dFdy(vPosition);
     vec3 face = cross(right, up);
     face = dot(face, toEye) < 0.0 ? -face : face;
-#define UNBLURRED(i, point)                                                       \
-    unblurred(i, point(i), face, right, up, outKernel[(i) - FIRST_LIGHT], \
-              outFactor[(i) - FIRST_LIGHT]);
+    uint normal = normalBits(eyeFromOrigin * unit(face));
+#define UNBLURRED(i, point)                                                                    \
+    unblurred(i, point(i), face, right, up, normal, outSurface[(i) - FIRST_LIGHT], \
+              outKernel[(i) - FIRST_LIGHT], outFactor[(i) - FIRST_LIGHT]);
     UNBLURRED_LIGHTS
-    outSurface = uvec2(floatBitsToUint(gl_FragCoord.z),
-                       surfaceBits(eyeFromOrigin * unit(face), kernelTexels));
 }
 )glsl";
 }
 
 std::string_view blurRanges() noexcept {
     return R"glsl(
+layout(binding = 11) uniform usampler2DArray surfaces;
 layout(binding = 12) uniform sampler2DArray kernels;
-layout(binding = 13) uniform sampler2DArray factors;
-layout(location = 0) uniform ivec4 layers;  // x: of the factors, y: of the kernels
+layout(location = 0) uniform int layer;
 layout(location = 0) out vec4 outRange;
 
 void main() {
-    vec2 texel = 1.0 / vec2(textureSize(factors, 0).xy);
+    vec2 texel = 1.0 / vec2(textureSize(surfaces, 0).xy);
     vec2 corner = (floor(gl_FragCoord.xy) * 16.0 + 1.0) * texel;
-    vec4 low = vec4(1.0), high = vec4(0.0), reach = vec4(0.0);
+    uvec4 low = uvec4(0xffffu), high = uvec4(0u);
+    vec4 reach = vec4(0.0);
     for (int y = 0; y < 8; ++y) {
         for (int x = 0; x < 8; ++x) {
             vec2 at = corner + vec2(x, y) * 2.0 * texel;
-            vec4 found = textureGather(factors, vec3(at, float(layers.x)));
-            vec4 wide = textureGather(kernels, vec3(at, float(layers.y)), 3);
-            bvec4 there = greaterThanEqual(found, vec4(0.25));
-            low = mix(low, min(low, found), there);
-            high = max(high, found);
+            uvec4 code = textureGather(surfaces, vec3(at, float(layer)), 1) >> 20;
+            vec4 wide = textureGather(kernels, vec3(at, float(layer)), 3);
+            bvec4 there = greaterThan(code, uvec4(0u));
+            low = min(low, code - 1u);  // none wraps around
+            high = max(high, code);
             reach = mix(reach, max(reach, wide), there);
         }
     }
-    outRange = vec4(min(min(low.x, low.y), min(low.z, low.w)),
-                    max(max(high.x, high.y), max(high.z, high.w)),
+    uint least = min(min(low.x, low.y), min(low.z, low.w)) + 1u;
+    uint most = max(max(high.x, high.y), max(high.z, high.w));
+    // A block without light is like any other.
+    outRange = vec4(most == 0u ? 1.0 : float(least) / 65535.0, float(most) / 65535.0,
                     max(max(reach.x, reach.y), max(reach.z, reach.w)), 0.0);
 }
 )glsl";
@@ -183,15 +201,18 @@ void main() {
 
 std::string_view blur() noexcept {
     return R"glsl(
-layout(binding = 11) uniform usampler2D surfaces;
+layout(binding = 11) uniform usampler2DArray surfaces;
 layout(binding = 12) uniform sampler2DArray kernels;
-layout(binding = 13) uniform sampler2DArray factors;
 layout(binding = 15) uniform sampler2D blocks;
-layout(location = 0) uniform ivec4 layers;  // x: of the factors, y: of the kernels
+layout(location = 0) uniform int layer;
 layout(location = 1) uniform vec4 pass;     // xy: of the same deviation each way; z: of that along
 layout(location = 2) uniform ivec2 size;    // pixels
 layout(location = 4) uniform mat4 eyeFromClip;
+#ifdef LAST
 layout(location = 0) out float outFactor;
+#else
+layout(location = 0) out uvec2 outSurface;
+#endif
 
 // Samples each way at the most.
 const float mostSamples = 32.0;
@@ -199,18 +220,16 @@ const float mostSamples = 32.0;
 // the angle at which it is above or below the surface's plane, and angle of its own plane to that.
 const float offPlane = 0.25, turned = 0.52;
 
-vec2 placeOf(uint bits) { return vec2(bits & 0xfffu, bits >> 12 & 0xfffu); }
-
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    float own = texelFetch(factors, ivec3(pixel, layers.x), 0).r;
-    vec4 kernel = texelFetch(kernels, ivec3(pixel, layers.y), 0);
-    uvec2 surface = texelFetch(surfaces, pixel, 0).xy;
+    uvec2 surface = texelFetch(surfaces, ivec3(pixel, layer), 0).xy;
+    vec4 kernel = texelFetch(kernels, ivec3(pixel, layer), 0);
+    float own = codeOf(surface.y);
     float away = texelFetch(blocks, pixel / 16, 0).r * 255.0;
     vec2 deviation = deviationsOf(kernel, pass);
     float along = max(abs(deviation.x), abs(deviation.y));
     // Where nothing within the kernel differs, there is nothing to blur.
-    bool plain = own < 0.25 || along < 0.25 || (away - 1.0) * 16.0 >= reachOf(kernel.w);
+    bool plain = own < 0.5 || along < 0.25 || (away - 1.0) * 16.0 >= reachOf(kernel.w);
 
     // The surface's plane.
     float depth = uintBitsToFloat(surface.x);
@@ -218,7 +237,7 @@ void main() {
     vec4 h = eyeFromClip * vec4((vec2(pixel) + 0.5) * perPixel - 1.0, depth, 1.0);
     vec3 position = h.xyz / h.w;
     vec2 place = placeOf(surface.y);
-    vec2 e = (place - 2047.0) / 1023.5;
+    vec2 e = (place - 511.0) / 255.5;
     float square = dot(e, e);
     vec3 normal = vec3(e * sqrt(max(1.0 - 0.25 * square, 0.0)), 1.0 - 0.5 * square);
     vec4 plane = vec4(normal, -dot(normal, position));
@@ -229,9 +248,8 @@ void main() {
     vec2 slope = -byClip.xy / (plain ? 1.0 : byClip.z) * perPixel;  // depth a pixel
 
     // As many samples as the map has texels to tell, and pixels.
-    float texels = exp2(float(surface.y >> 24) * 0.0625);
     float goes = goesFor * along;
-    float wanted = clamp(ceil(1.25 * texels), 1.0, mostSamples);
+    float wanted = clamp(ceil(1.25 * texelsOf(kernel.w)), 1.0, mostSamples);
     float stride = max(floor(goes / wanted), 1.0);
     vec2 step_ = deviation * (stride / max(along, 1e-6));
     // Within the image, the same on both sides.
@@ -242,20 +260,20 @@ void main() {
                  eyeFromClip[2] * dot(slope, step_);
     float metres = length(moved.xyz - position * moved.w) / h.w;
     float perOff = abs(byClip.z) / max(offPlane * metres, 1e-30);
-    const float perTurn = 1.0 / (1023.5 * turned);
+    const float perTurn = 1.0 / (255.5 * turned);
     float ratio = exp(-0.5 * stride * stride / max(along * along, 1e-6));
     float square_ = ratio * ratio;
     float weight = 1.0;
     float sum = own, all = 1.0;
 #define TAKE(at, expected)                                                                       \
     {                                                                                            \
-        uvec2 there = texelFetch(surfaces, at, 0).xy;                                            \
-        float found = texelFetch(factors, ivec3(at, layers.x), 0).r;                             \
+        uvec2 there = texelFetch(surfaces, ivec3(at, layer), 0).xy;                           \
+        float found = codeOf(there.y);                                                           \
         float z = uintBitsToFloat(there.x);                                                      \
         float off = (expected - z) * perOff / (i * (eyeFromClip[2].w * z + eyeFromClip[3].w));   \
         vec2 turn = (placeOf(there.y) - place) * perTurn;                                        \
         float counts = weight * clamp(1.5 - off * off - dot(turn, turn), 0.0, 1.0);              \
-        counts = found < 0.25 ? 0.0 : counts;                                                    \
+        counts = found < 0.5 ? 0.0 : counts;                                                    \
         sum += counts * found;                                                                   \
         all += counts;                                                                           \
     }
@@ -268,7 +286,12 @@ void main() {
         TAKE(pixel + far, depth + rise)
         TAKE(pixel - far, depth - rise)
     }
-    outFactor = count > 0.0 ? sum / all : own;
+    float code = count > 0.0 ? sum / all : own;
+#ifdef LAST
+    outFactor = (code - 1.0) / steps;
+#else
+    outSurface = uvec2(surface.x, surface.y & 0xfffffu | uint(code + 0.5) << 20);
+#endif
 }
 )glsl";
 }

@@ -110,8 +110,7 @@ layout(std140, binding = 2) uniform ViewBlock {
     vec4 ambientMiddle;  // of sky and ground
     vec4 ambientHalf;    // from there to the sky
     vec4 shade;          // what a whole shadow takes of a light
-    ivec4 factorImages;  // xy: the pixel of theirs that the window's first one is; z: 2: they have
-                         // one half and half of the factor, else 1
+    ivec4 factorImages;  // xy: the pixel of theirs that the window's first one is
 };
 layout(std140, binding = 3) uniform MaterialBlock {
     vec4 diffuse;
@@ -199,16 +198,13 @@ bool shinesAt(int i, vec3 position) {
 }
 
 std::string_view factorLookup() noexcept {
-    // Faces that are turned away have none: whoever reads it knows.
     return R"glsl(
 layout(binding = 10) uniform sampler2DArray shadowFactors;
 #define ShadowPoint int
 int foundPoint(int light, vec3 position, vec3 normal) { return 0; }
 float shadowFactor(int light, int point) {
     ivec2 pixel = ivec2(gl_FragCoord.xy) + factorImages.xy;
-    float found = texelFetch(shadowFactors, ivec3(pixel, light), 0).r;
-    float scale = float(factorImages.z);
-    return max(found * scale - (scale - 1.0), 0.0);
+    return texelFetch(shadowFactors, ivec3(pixel, light), 0).r;
 }
 )glsl";
 }

@@ -72,7 +72,7 @@ Lights::Lights(const gl::Api& gl) : gl_{gl}, lights_{gl}, view_{gl} {
 
 Lights::Uploaded Lights::upload(const scene::FlatScene& flat, const math::View& view,
                                 const math::dvec3& origin, const scene::Viewport& viewport,
-                                shadow::ShadowMaps* maps, const Images& images, int only) {
+                                shadow::ShadowMaps* maps, const glm::ivec2& imagesAt, int only) {
     Uploaded done;
     const auto* shadowed = dynamic_cast<const scene::ShadowViewport*>(&viewport);
     const bool tracing =
@@ -125,7 +125,7 @@ Lights::Uploaded Lights::upload(const scene::FlatScene& flat, const math::View& 
         const math::vec4 color = shadowed->shadowColor;
         block.shade = (math::vec4{1.0F} - color) * color.w;
     }
-    block.factorImages = {images.at, images.halves ? 2 : 1, 0};
+    block.factorImages = {imagesAt, 0, 0};
     if (done.count > 0)
         gl_.NamedBufferSubData(lights_.id(), 0,
                                static_cast<GLsizeiptr>(sizeof(LightBlock)) * done.count,

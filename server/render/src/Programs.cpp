@@ -151,9 +151,12 @@ GLuint Programs::blurBlocks() {
     return blurBlocks_.id();
 }
 
-GLuint Programs::blur() {
-    if (!blur_) blur_ = build("blur", "", {glsl::blurVertex()}, {glsl::blurCommon(), glsl::blur()});
-    return blur_.id();
+GLuint Programs::blur(bool last) {
+    gl::Program& program = blur_[last ? 1 : 0];
+    if (!program)
+        program = build("blur", last ? "#define LAST\n" : "", {glsl::blurVertex()},
+                        {glsl::blurCommon(), glsl::blur()});
+    return program.id();
 }
 
 GLuint Programs::combine(const shadow::ShadowMaps::Arranged& maps) {

@@ -4,6 +4,7 @@
 #include <gnomon/scene/Material.h>
 #include <gnomon/shadow/ShadowMaps.h>
 
+#include <array>
 #include <compare>
 #include <cstdint>
 #include <map>
@@ -61,7 +62,8 @@ public:
     /// The passes of ScreenBlur.
     GLuint blurRanges();
     GLuint blurBlocks();
-    GLuint blur();
+    /// @param last  it makes factors, not surfaces
+    GLuint blur(bool last);
     GLuint combine(const shadow::ShadowMaps::Arranged& maps);
 
     /// A material's own program, with the places of the uniforms it declares. id 0: it does not
@@ -88,7 +90,7 @@ private:
     gl::Program depthRange_;
     gl::Program blurRanges_;
     gl::Program blurBlocks_;
-    gl::Program blur_;
+    std::array<gl::Program, 2> blur_;                             ///< the last pass is the second
     std::map<std::tuple<int, bool, bool>, gl::Program> combine_;  ///< as Arranged
     std::unordered_map<field::Id, Foreign> foreign_;
 };

@@ -67,10 +67,9 @@ struct Renderer::Parts {
                     .eyeFromWorld = view.eyeFromWorld,
                     .eyeWorld = view.eyeWorld()};
         }
-        Lights::Images images() const {
-            if (!onScreen) return {};
-            return {.at = glm::ivec2{ScreenBlur::margin} - glm::ivec2{pixels.x, pixels.y},
-                    .halves = true};
+        glm::ivec2 imagesAt() const {
+            return onScreen ? glm::ivec2{ScreenBlur::margin} - glm::ivec2{pixels.x, pixels.y}
+                            : glm::ivec2{0};
         }
     };
 
@@ -312,7 +311,7 @@ Result<void> Renderer::Parts::drawViewport(const scene::Window& window,
     done.shadowMs += lap(clock);
 
     const auto lit = lights.upload(drawer.flat(), seen.camera.view, seen.origin, viewport,
-                                   shadowed ? &maps : nullptr, seen.images());
+                                   shadowed ? &maps : nullptr, seen.imagesAt());
     done.lights += lit.count;
     done.lightsUnseen += lit.unseen;
     done.lightsLeftOut = static_cast<int>(drawer.flat().lightsLeftOut());
@@ -589,7 +588,7 @@ Result<image::Image> Renderer::shadowFactor(const scene::Window& window, std::si
     whole.pixels.x = whole.pixels.y = 0;
     const auto lit =
         p.lights.upload(drawer.flat(), seen.camera.view, seen.origin, *viewport,
-                        seen.states.empty() ? nullptr : &p.maps, whole.images(), index);
+                        seen.states.empty() ? nullptr : &p.maps, whole.imagesAt(), index);
 
     const auto& at = seen.pixels;
     gl::Texture factor{gl, GLenum{GL_TEXTURE_2D}};

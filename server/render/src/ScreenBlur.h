@@ -20,7 +20,7 @@ class ScreenBlur {
 public:
     static constexpr GLuint factorUnit = 10;  ///< texture unit
     static constexpr int margin = 64;         ///< pixels
-    static constexpr int atOnce = 3;          ///< lights in one pass over the scene
+    static constexpr int atOnce = 2;          ///< lights in one pass over the scene
 
     ScreenBlur(const gl::Api& gl, Programs& programs);
 
@@ -52,15 +52,15 @@ public:
 private:
     gl::Texture texture(GLenum target, GLenum format, const glm::ivec2& size, int layers,
                         const char* label) const;
-    void attach(GLuint texture, int layer) const;
-    void findBlocks(const glm::ivec2& layers);
-    void drawPass(const glm::ivec2& layers, int from, const math::vec4& pass);
+    void findBlocks(int layer);
+    void drawPass(GLuint program, int layer, const gl::Texture& from, const gl::Texture& to,
+                  int toLayer, const math::vec3& pass);
 
     const gl::Api& gl_;
     Programs& programs_;
-    gl::Texture surfaces_;
+    std::array<gl::Texture, 2> surfaces_;  ///< the passes go to and fro
     gl::Texture kernels_;
-    std::array<gl::Texture, 2> factors_;  ///< the last pass leaves them in the second
+    gl::Texture factors_;
     gl::Texture depth_;
     gl::Texture ranges_;  ///< of blocks
     gl::Texture blocks_;
