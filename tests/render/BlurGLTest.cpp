@@ -86,22 +86,31 @@ TEST_P(EdgeBlurGLTest, AnEdgeOnAPlaneIsTheErrorFunction) {
     const math::View lens = viewOf(eye);
     dvec3 across = glm::normalize(glm::cross(along, at.toSun));
     if (glm::dot(across, aside) > 0.0) across = -across;  // toward what is lit
+    // A kernel is cut off at 2.5 deviations: 0.6 % on either side; an edge in the map is a texel
+    // wide.
+    constexpr double tolerance = 0.04;
     int compared = 0;
     int between = 0;
     double worst = 0.0;
+    dvec3 where{0.0};
+    int wrong = 0;
     for (int y = 0; y < size; ++y) {
         for (int x = 0; x < size; ++x) {
             const dvec3 place = onPlane(lens, x, y, at.slope);
             if (std::max(std::abs(place.x), std::abs(place.z)) > 5.0) continue;
             const double right = normalShare(glm::dot(place, across) / (0.5 * softness));
             const double value = pixel(found, x, y)[0] / 255.0;
-            worst = std::max(worst, std::abs(value - right));
+            if (std::abs(value - right) > worst) {
+                worst = std::abs(value - right);
+                where = place;
+            }
+            wrong += std::abs(value - right) > tolerance ? 1 : 0;
             ++compared;
             between += right > 0.1 && right < 0.9 ? 1 : 0;
         }
     }
-    // A deviation is cut off at 2.5: 0.6 % on either side; a texel of the map is a tenth of it.
-    EXPECT_LE(worst, 0.035);
+    EXPECT_LE(worst, tolerance) << wrong << " pixels of " << compared << " are off, the most at "
+                                << where.x << ", " << where.z;
     EXPECT_GT(compared, 10'000);
     EXPECT_GT(between, 1000);
 }
@@ -187,7 +196,7 @@ TEST_F(BlurGLTest, NothingIsBlurredAgainWhileNothingChanges) {
     add(moved.node, box({-1.0F, 1.0F, -1.0F}, {1.0F, 2.0F, 1.0F}), true);
     const View eye = blurred(topView(), "std", 0.2, 512);
     const auto first = draw(eye);
-    EXPECT_EQ(first.kernelPixels, 64);
+    EXPECT_EQ(first.kernelPixels, 60);
     EXPECT_EQ(first.factorPixels, std::uint64_t{size + 128} * (size + 128));
     EXPECT_GT(first.factorBytes, 0U);
     const auto before = renderer->read(copyOf(eye.window));

@@ -469,7 +469,7 @@ void Renderer::Parts::blur(const Seen& seen, const Lights::Uploaded& lit, Screen
                                 .pixels = {seen.pixels.width, seen.pixels.height},
                                 .maps = lit.maps,
                                 .version = version};
-    done.kernelPixels = ScreenBlur::margin;
+    done.kernelPixels = ScreenBlur::reach;
     if (!into.has(pass)) {
         into.start(pass);
         SceneDrawer::ColorPass colors = seen.passOf(seen.shadowed);
