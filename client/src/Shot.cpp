@@ -184,6 +184,9 @@ render::FrameStatistics Shot::draw() {
         sum.pagesUnseen += one.pagesUnseen;
         sum.mapTexels += one.mapTexels;
         sum.mapBytes = one.mapBytes;
+        sum.factorPixels += one.factorPixels;
+        sum.factorBytes += one.factorBytes;
+        sum.kernelPixels = std::max(sum.kernelPixels, one.kernelPixels);
         sum.degenerate += one.degenerate;
         sum.shadowMs += one.shadowMs;
         sum.colorMs += one.colorMs;
@@ -283,6 +286,11 @@ void Shot::writeJson() const {
     json["lights_unseen"] = last_.lightsUnseen;
     json["map_texels"] = last_.mapTexels;
     json["map_bytes"] = last_.mapBytes;
+    if (last_.kernelPixels > 0) {
+        json["factor_pixels"] = last_.factorPixels;
+        json["factor_bytes"] = last_.factorBytes;
+        json["kernel_pixels"] = last_.kernelPixels;
+    }
     json["pages_drawn"] = last_.pagesDrawn;
     json["pages_kept"] = last_.pagesKept;
     json["pages_unseen"] = last_.pagesUnseen;

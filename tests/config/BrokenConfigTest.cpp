@@ -149,7 +149,7 @@ constexpr Broken brokenWalls[] = {
      .to = "\"csm+pfc\"",
      .error = "wall.toml:8:13: shadow: technique is \"csm+pfc\", must have a filter after the "
               "'+': \"hard\", \"pcf\", \"ppcf\", \"rotated\", \"hardware\", \"square\", "
-              "\"vsm\", \"evsm\", \"vsm16\" or \"evsm16\", did you mean \"pcf\"?"},
+              "\"vsm\", \"evsm\", \"vsm16\", \"evsm16\" or \"gauss\", did you mean \"pcf\"?"},
     {.name = "samplesThree",
      .from = "[[screen]]",
      .to = "[render]\nsamples = 3\n[[screen]]",

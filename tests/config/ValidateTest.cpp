@@ -39,10 +39,11 @@ TEST(Validate, SaysWhatWithoutAPosition) {
 
 TEST(Validate, TechniquesAreThoseOfTheCommandLine) {
     for (const char* good :
-         {"none",     "volume",     "planar",    "blob",       "lightmap",    "ray",
-          "auto",     "std",        "trapez",    "psm",        "lispsm",      "csm",
-          "cube",     "paraboloid", "sparse",    "pcf",        "ppcf",        "vsm",
-          "std+hard", "csm+pcf",    "cube+ppcf", "trapez+vsm", "lispsm+evsm", "std+square"}) {
+         {"none",      "volume",     "planar",      "blob",       "lightmap",
+          "ray",       "auto",       "std",         "trapez",     "psm",
+          "lispsm",    "csm",        "cube",        "paraboloid", "sparse",
+          "pcf",       "ppcf",       "vsm",         "std+hard",   "csm+pcf",
+          "cube+ppcf", "trapez+vsm", "lispsm+evsm", "std+square", "lispsm+gauss"}) {
         EXPECT_TRUE(validate(Shadow{.technique = good}).empty()) << good;
     }
     for (const char* bad : {"", "+", "std+", "+pcf", "none+pcf", "pcf+pcf", "std+pcf+vsm", "hard",

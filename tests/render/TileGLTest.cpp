@@ -11,6 +11,7 @@ using math::vec3;
 class TileGLTest : public RenderTest {
 protected:
     std::string technique = "std";
+    double softness = 0.0;
     /// Everything that could differ at a seam: shadows of a sun and a spot, a gradient, a blended
     /// surface, geometry across all seams.
     void plaza(const scene::Node& below) {
@@ -57,6 +58,7 @@ protected:
                 e->mapSize = mapSize;
                 e->background = background;
                 e->technique = technique;
+                e->softness = static_cast<float>(softness);
             }
             edit(made.window)->samples = samples;
         };
@@ -217,6 +219,20 @@ TEST_P(EveryTechniqueTileGLTest, TheFacesOfACaveEqualTheWhole) {
 
 INSTANTIATE_TEST_SUITE_P(All, EveryTechniqueTileGLTest, testing::ValuesIn(techniques()),
                          techniqueName);
+
+// Kernels wider than a tile, cut off where they would be wider than its margin.
+TEST_F(TileGLTest, WideKernelsOnTheScreenGoOnInTheNextTile) {
+    technique = "lispsm+gauss";
+    softness = 0.8;
+    const auto sun = light<scene::DirectionalLight>(root, {-2.0, 3.0, 1.0}, {0.0, 0.0, 0.0});
+    const auto spot = light<scene::SpotLight>(sun.node, {3.0, 7.0, 4.0}, {0.0, 0.0, 0.0});
+    edit(sun.core)->intensity = 0.5F;
+    plaza(spot.node);
+    const auto both =
+        render(perspectiveView({4.0, 3.0, 9.0}, {0.0, 0.5, 0.0}), 3, 3, {85, 51}, gradient(), 1024);
+    expectEqual(both);
+    EXPECT_GT(colors(both.whole), 500U);
+}
 
 TEST_F(TileGLTest, TilesWithMultisampling) {
     const auto sun = light<scene::DirectionalLight>(root, {-2.0, 3.0, 1.0}, {0.0, 0.0, 0.0});

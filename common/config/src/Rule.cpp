@@ -19,8 +19,9 @@ constexpr std::array<std::string_view, 7> alone = {"none", "volume",   "planar",
                                                    "ray",  "lightmap", "auto"};
 constexpr std::array<std::string_view, 8> fits = {"std", "trapez", "psm",        "lispsm",
                                                   "csm", "cube",   "paraboloid", "sparse"};
-constexpr std::array<std::string_view, 10> filters = {
-    "hard", "pcf", "ppcf", "rotated", "hardware", "square", "vsm", "evsm", "vsm16", "evsm16"};
+constexpr std::array<std::string_view, 11> filters = {"hard",     "pcf",    "ppcf", "rotated",
+                                                      "hardware", "square", "vsm",  "evsm",
+                                                      "vsm16",    "evsm16", "gauss"};
 constexpr std::array<std::string_view, 3> filtersAlone = {"pcf", "ppcf", "vsm"};  // mean std+...
 
 template <std::size_t n>

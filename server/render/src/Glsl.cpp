@@ -110,6 +110,7 @@ layout(std140, binding = 2) uniform ViewBlock {
     vec4 ambientMiddle;  // of sky and ground
     vec4 ambientHalf;    // from there to the sky
     vec4 shade;          // what a whole shadow takes of a light
+    ivec4 factorImages;  // xy: the pixel of theirs that the window's first one is
 };
 layout(std140, binding = 3) uniform MaterialBlock {
     vec4 diffuse;
@@ -196,29 +197,21 @@ bool shinesAt(int i, vec3 position) {
 )glsl";
 }
 
-std::string_view tracedLookup() noexcept {
+std::string_view factorLookup() noexcept {
     return R"glsl(
-layout(binding = 8) uniform sampler2DArray tracedFactors;
+layout(binding = 10) uniform sampler2DArray shadowFactors;
 #define ShadowPoint int
 int foundPoint(int light, vec3 position, vec3 normal) { return 0; }
 float shadowFactor(int light, int point) {
-    return texelFetch(tracedFactors, ivec3(ivec2(gl_FragCoord.xy), light), 0).r;
+    ivec2 pixel = ivec2(gl_FragCoord.xy) + factorImages.xy;
+    return texelFetch(shadowFactors, ivec3(pixel, light), 0).r;
 }
 )glsl";
 }
 
-std::string_view meshColor() noexcept {
+std::string_view meshPlaces() noexcept {
     return R"glsl(
 in vec3 vPosition;
-#ifdef HAS_NORMALS
-in vec3 vNormal;
-#endif
-#ifdef HAS_TANGENTS
-in vec4 vTangent;
-#endif
-#ifdef SCOPED_LIGHTS
-flat in uvec2 vLights;
-#endif
 #if SHADOW_PLACES > 0
 #ifdef PERSPECTIVE_MAPS
 in vec4 vPlace[SHADOW_PLACES];
@@ -227,6 +220,31 @@ vec4 placeOf(int i) { return vPlace[i]; }
 in vec3 vPlace[SHADOW_PLACES];
 vec4 placeOf(int i) { return vec4(vPlace[i], 1.0); }
 #endif
+#endif
+// Where the surface is in light i's first shadow map. With the face's normal at hand, of any length.
+#ifdef SHADOWS
+#define FOUND(i) foundPoint((i) * MAPS_PER_LIGHT, vPosition, unit(face))
+#else
+#define FOUND(i) 0
+#endif
+#if SHADOW_PLACES > 0
+#define INTERPOLATED(i) interpolatedPoint((i) * MAPS_PER_LIGHT, placeOf(i))
+#else
+#define INTERPOLATED(i) 0
+#endif
+)glsl";
+}
+
+std::string_view meshColor() noexcept {
+    return R"glsl(
+#ifdef HAS_NORMALS
+in vec3 vNormal;
+#endif
+#ifdef HAS_TANGENTS
+in vec4 vTangent;
+#endif
+#ifdef SCOPED_LIGHTS
+flat in uvec2 vLights;
 #endif
 layout(location = 0) out vec4 outColor;
 
@@ -310,16 +328,6 @@ void main() {
     vec3 radiance = (ambientMiddle.rgb + ambientHalf.rgb * normal.y) * diffuse;
     // Directional lights come first. The number of lights is fixed in the program and each call is
     // written out: a constant index is read once for all pixels.
-#ifdef SHADOWS
-#define FOUND(i) foundPoint((i) * MAPS_PER_LIGHT, vPosition, unit(face))
-#else
-#define FOUND(i) 0
-#endif
-#if SHADOW_PLACES > 0
-#define INTERPOLATED(i) interpolatedPoint((i) * MAPS_PER_LIGHT, placeOf(i))
-#else
-#define INTERPOLATED(i) 0
-#endif
 #define DIRECTIONAL(i, point)                                                                  \
     radiance += lit(i, -lights[i].direction.xyz, lights[i].color.rgb, point(i), normal, face, \
                     toEye, diffuse);
@@ -353,16 +361,6 @@ void main() { surfaceColor(); }
 
 std::string_view meshFactor() noexcept {
     return R"glsl(
-in vec3 vPosition;
-#if SHADOW_PLACES > 0
-#ifdef PERSPECTIVE_MAPS
-in vec4 vPlace[SHADOW_PLACES];
-vec4 placeOf(int i) { return vPlace[i]; }
-#else
-in vec3 vPlace[SHADOW_PLACES];
-vec4 placeOf(int i) { return vec4(vPlace[i], 1.0); }
-#endif
-#endif
 layout(location = 0) out float outFactor;
 
 void main() {
@@ -377,7 +375,7 @@ void main() {
     ShadowPoint point = interpolatedPoint(0, placeOf(0));
     if (lit > 0.0 && lights[0].ambient.w > 0.0) lit = shadowFactor(0, point);
 #endif
-#ifdef TRACED
+#ifdef FACTOR_IMAGES
     if (lights[0].ambient.w > 0.0) lit *= shadowFactor(0, 0);
 #endif
     // 128 means that there is no surface.

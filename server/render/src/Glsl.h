@@ -10,14 +10,27 @@ std::string_view version() noexcept;
 std::string_view meshVertex() noexcept;
 /// Light blocks and the surface's material.
 std::string_view meshCommon() noexcept;
-/// Of factors that were traced: what lookupGlsl() and a filter are otherwise.
-std::string_view tracedLookup() noexcept;
+/// Of factors in an image: what lookupGlsl() and a filter are otherwise.
+std::string_view factorLookup() noexcept;
+/// Where a fragment is; before meshColor(), meshFactor() and meshUnblurred().
+std::string_view meshPlaces() noexcept;
 /// Colour pass; after the shadow lookup's text.
 std::string_view meshColor() noexcept;
 /// Depth of masked casters.
 std::string_view meshDepth() noexcept;
 /// One light's shadow factor; after the shadow lookup's text.
 std::string_view meshFactor() noexcept;
+/// Before what follows.
+std::string_view blurCommon() noexcept;
+/// Surfaces, and some lights' factors and kernels, for ScreenBlur; after the shadow lookup's text.
+std::string_view meshUnblurred() noexcept;
+/// Passes of ScreenBlur. Least and greatest factor of each block of pixels, and the widest kernel.
+std::string_view blurRanges() noexcept;
+/// How far from each block factors differ.
+std::string_view blurBlocks() noexcept;
+/// Covers the blocks that a blur changes.
+std::string_view blurVertex() noexcept;
+std::string_view blur() noexcept;
 /// A triangle that covers the viewport.
 std::string_view coverVertex() noexcept;
 /// A strip of coloured rows, from below the picture to above it.

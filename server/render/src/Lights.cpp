@@ -25,6 +25,7 @@ struct ViewBlock {
     math::vec4 ambientMiddle{0.0F};
     math::vec4 ambientHalf{0.0F};
     math::vec4 shade{0.0F};
+    glm::ivec4 factorImages{0};
 };
 
 /// False only where nothing that is seen can be reached.
@@ -71,7 +72,7 @@ Lights::Lights(const gl::Api& gl) : gl_{gl}, lights_{gl}, view_{gl} {
 
 Lights::Uploaded Lights::upload(const scene::FlatScene& flat, const math::View& view,
                                 const math::dvec3& origin, const scene::Viewport& viewport,
-                                shadow::ShadowMaps* maps, int only) {
+                                shadow::ShadowMaps* maps, const glm::ivec2& imagesAt, int only) {
     Uploaded done;
     const auto* shadowed = dynamic_cast<const scene::ShadowViewport*>(&viewport);
     const bool tracing =
@@ -106,7 +107,7 @@ Lights::Uploaded Lights::upload(const scene::FlatScene& flat, const math::View& 
     done.directional = done.count;
     for (std::size_t i = 0; i < uses.size(); ++i) put(i, false);
     if (!done.traced.empty())
-        done.maps = {.mapsPerLight = 1, .lights = done.count, .traced = true};
+        done.maps = {.mapsPerLight = 1, .lights = done.count, .images = true};
     else if (maps != nullptr)
         done.maps = maps->arrange(std::span{order}.first(static_cast<std::size_t>(done.count)));
     done.scoped = std::any_of(flat.instances().begin(), flat.instances().end(),
@@ -124,6 +125,7 @@ Lights::Uploaded Lights::upload(const scene::FlatScene& flat, const math::View& 
         const math::vec4 color = shadowed->shadowColor;
         block.shade = (math::vec4{1.0F} - color) * color.w;
     }
+    block.factorImages = {imagesAt, 0, 0};
     if (done.count > 0)
         gl_.NamedBufferSubData(lights_.id(), 0,
                                static_cast<GLsizeiptr>(sizeof(LightBlock)) * done.count,

@@ -29,9 +29,11 @@ public:
         std::vector<RayShadows::Light> traced = {};  ///< lights whose shadows are
     };
     /// Writes what reaches the view; binds both blocks, and the shadow maps in the lights' order.
+    /// @param imagesAt  the pixel of images of factors that the window's first one is
     /// @param only  -1: all that are on; else just this one, at index 0, on or off.
     Uploaded upload(const scene::FlatScene& flat, const math::View& view, const math::dvec3& origin,
-                    const scene::Viewport& viewport, shadow::ShadowMaps* maps, int only = -1);
+                    const scene::Viewport& viewport, shadow::ShadowMaps* maps,
+                    const glm::ivec2& imagesAt, int only = -1);
 
 private:
     const gl::Api& gl_;

@@ -30,7 +30,7 @@ std::string definesFor(const Variant& v) {
     define((v.features & Variant::shadows) != 0, "SHADOWS");
     define((v.features & Variant::pagedMaps) != 0, "PAGED_MAPS");
     define((v.features & Variant::perspectiveMaps) != 0, "PERSPECTIVE_MAPS");
-    define((v.features & Variant::traced) != 0, "TRACED");
+    define((v.features & Variant::factorImages) != 0, "FACTOR_IMAGES");
     define(v.pass == Variant::Pass::depth, "DEPTH_ONLY");
     const auto calls = [&](const char* list, const char* call, int first, int count) {
         text += std::string{"#define "} + list;
@@ -43,6 +43,11 @@ std::string definesFor(const Variant& v) {
     calls("OTHER_LIGHTS", "OTHER", v.directionalLights, v.otherLights);
     if ((v.features & Variant::manyLights) != 0)
         text += "#define MANY_LIGHTS " + std::to_string(v.directionalLights + v.otherLights) + "\n";
+    if (v.lightCount > 0) {
+        calls("UNBLURRED_LIGHTS", "UNBLURRED", v.firstLight, v.lightCount);
+        text += "#define FIRST_LIGHT " + std::to_string(v.firstLight) + "\n";
+        text += "#define LIGHT_COUNT " + std::to_string(v.lightCount) + "\n";
+    }
     text += "#define MAPS_PER_LIGHT " + std::to_string(v.mapsPerLight) + "\n";
     text += "#define SHADOW_LIGHTS " + std::to_string(v.shadowLights) + "\n";
     text += "#define SHADOW_PLACES " + std::to_string(v.places) + "\n";
@@ -79,24 +84,29 @@ GLuint Programs::mesh(const Variant& variant) {
     if (!isNew) return at->second.id();
     const std::string defines = definesFor(variant);
     const bool shadows = (variant.features & Variant::shadows) != 0;
-    const bool traced = (variant.features & Variant::traced) != 0;
-    const bool mapped = shadows && !traced;
+    const bool images = (variant.features & Variant::factorImages) != 0;
+    const bool mapped = shadows && !images;
     const std::string_view maps = mapped ? shadow::mapsGlsl() : "";
-    const std::string_view lookup = traced   ? glsl::tracedLookup()
+    const std::string_view lookup = images   ? glsl::factorLookup()
                                     : mapped ? shadow::lookupGlsl()
                                              : "";
     const std::string_view shared = mapped ? shadow::findFilter(filter_)->shared : "";
     const std::string_view filter = mapped ? shadow::findFilter(filter_)->glsl : "";
     switch (variant.pass) {
         case Variant::Pass::color:
-            at->second =
-                build("surface", defines, {maps, glsl::meshVertex()},
-                      {glsl::meshCommon(), maps, lookup, shared, filter, glsl::meshColor()});
+            at->second = build("surface", defines, {maps, glsl::meshVertex()},
+                               {glsl::meshCommon(), maps, lookup, shared, filter,
+                                glsl::meshPlaces(), glsl::meshColor()});
             break;
         case Variant::Pass::factor:
-            at->second =
-                build("shadow factor", defines, {maps, glsl::meshVertex()},
-                      {glsl::meshCommon(), maps, lookup, shared, filter, glsl::meshFactor()});
+            at->second = build("shadow factor", defines, {maps, glsl::meshVertex()},
+                               {glsl::meshCommon(), maps, lookup, shared, filter,
+                                glsl::meshPlaces(), glsl::meshFactor()});
+            break;
+        case Variant::Pass::unblurred:
+            at->second = build("unblurred factors", defines, {maps, glsl::meshVertex()},
+                               {glsl::meshCommon(), maps, lookup, shared, filter,
+                                glsl::meshPlaces(), glsl::blurCommon(), glsl::meshUnblurred()});
             break;
         case Variant::Pass::depth:
             // Opaque casters need no fragment shader at all.
@@ -128,8 +138,29 @@ GLuint Programs::depthRange() {
     return depthRange_.id();
 }
 
+GLuint Programs::blurRanges() {
+    if (!blurRanges_)
+        blurRanges_ = build("ranges to blur", "", {glsl::coverVertex()}, {glsl::blurRanges()});
+    return blurRanges_.id();
+}
+
+GLuint Programs::blurBlocks() {
+    if (!blurBlocks_)
+        blurBlocks_ = build("blocks to blur", "", {glsl::coverVertex()},
+                            {glsl::blurCommon(), glsl::blurBlocks()});
+    return blurBlocks_.id();
+}
+
+GLuint Programs::blur(bool last) {
+    gl::Program& program = blur_[last ? 1 : 0];
+    if (!program)
+        program = build("blur", last ? "#define LAST\n" : "", {glsl::blurVertex()},
+                        {glsl::blurCommon(), glsl::blur()});
+    return program.id();
+}
+
 GLuint Programs::combine(const shadow::ShadowMaps::Arranged& maps) {
-    gl::Program& program = combine_[{maps.mapsPerLight, maps.perspective, maps.traced}];
+    gl::Program& program = combine_[{maps.mapsPerLight, maps.perspective, maps.images}];
     if (program) return program.id();
     if (maps.mapsPerLight == 0) {
         program =
@@ -139,9 +170,9 @@ GLuint Programs::combine(const shadow::ShadowMaps::Arranged& maps) {
     std::string defines = "#define SHADOWS\n#define PAGED_MAPS\n#define MAPS_PER_LIGHT " +
                           std::to_string(maps.mapsPerLight) + "\n";
     if (maps.perspective) defines += "#define PERSPECTIVE_MAPS\n";
-    if (maps.traced) {
+    if (maps.images) {
         program = build("combine", defines, {glsl::coverVertex()},
-                        {glsl::meshCommon(), glsl::tracedLookup(), glsl::combine()});
+                        {glsl::meshCommon(), glsl::factorLookup(), glsl::combine()});
         return program.id();
     }
     program = build(

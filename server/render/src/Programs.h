@@ -4,6 +4,7 @@
 #include <gnomon/scene/Material.h>
 #include <gnomon/shadow/ShadowMaps.h>
 
+#include <array>
 #include <compare>
 #include <cstdint>
 #include <map>
@@ -16,7 +17,7 @@ namespace gnomon::render {
 
 /// What a built-in program is specialised for.
 struct Variant {
-    enum class Pass : std::uint8_t { color, depth, factor };
+    enum class Pass : std::uint8_t { color, depth, factor, unblurred };
     enum Feature : std::uint32_t {
         diffuseMap = 1,
         normalMap = 2,
@@ -28,7 +29,7 @@ struct Variant {
         manyLights = 128,       ///< more lights than are written out
         pagedMaps = 256,        ///< some shadow map has several pages
         perspectiveMaps = 512,  ///< some shadow map has a w that is not 1
-        traced = 1024,          ///< factors are read, not found in maps
+        factorImages = 1024,    ///< factors are read, not found in maps
     };
     static constexpr int maxDirectional = 4;  ///< directional lights a program is written out for
     static constexpr int maxOther = 8;        ///< and others
@@ -41,6 +42,8 @@ struct Variant {
     int mapsPerLight = 0;  ///< with shadows
     int shadowLights = 0;  ///< the first so many lights can have maps
     int places = 0;        ///< the first so many lights' places come from the vertex shader
+    int firstLight = 0;    ///< of pass unblurred
+    int lightCount = 0;
     friend auto operator<=>(const Variant&, const Variant&) = default;
 };
 
@@ -56,6 +59,11 @@ public:
     GLuint background();
     GLuint foreground();
     GLuint depthRange();
+    /// The passes of ScreenBlur.
+    GLuint blurRanges();
+    GLuint blurBlocks();
+    /// @param last  it makes factors, not surfaces
+    GLuint blur(bool last);
     GLuint combine(const shadow::ShadowMaps::Arranged& maps);
 
     /// A material's own program, with the places of the uniforms it declares. id 0: it does not
@@ -80,6 +88,9 @@ private:
     gl::Program background_;
     gl::Program foreground_;
     gl::Program depthRange_;
+    gl::Program blurRanges_;
+    gl::Program blurBlocks_;
+    std::array<gl::Program, 2> blur_;                             ///< the last pass is the second
     std::map<std::tuple<int, bool, bool>, gl::Program> combine_;  ///< as Arranged
     std::unordered_map<field::Id, Foreign> foreign_;
 };

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gnomon/render/Renderer.h>
 #include <gnomon/scene/CameraView.h>
+#include <gnomon/shadow/Filter.h>
 #include <gnomon/shadow/ShadowMaps.h>
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include "Overlay.h"
 #include "RayShadows.h"
 #include "SceneDrawer.h"
+#include "ScreenBlur.h"
 #include "Target.h"
 
 namespace gnomon::render {
@@ -53,13 +55,21 @@ struct Renderer::Parts {
         std::unique_ptr<truth::RayScene>* rays = nullptr;
         std::vector<const scene::ShadowState*> states = {};
         math::dvec3 origin{0.0};
+        /// Factors are blurred on the screen; shadowed is what is looked up for that.
+        bool onScreen = false;
+        math::View shadowed = {};
 
         /// Without lights and maps.
-        SceneDrawer::ColorPass pass() const {
-            return {.clipFromOrigin = clipFromOrigin(camera.view, origin),
-                    .clipFromWorld = camera.view.clipFromWorld(),
-                    .eyeFromWorld = camera.view.eyeFromWorld,
-                    .eyeWorld = camera.view.eyeWorld()};
+        SceneDrawer::ColorPass pass() const { return passOf(camera.view); }
+        SceneDrawer::ColorPass passOf(const math::View& view) const {
+            return {.clipFromOrigin = clipFromOrigin(view, origin),
+                    .clipFromWorld = view.clipFromWorld(),
+                    .eyeFromWorld = view.eyeFromWorld,
+                    .eyeWorld = view.eyeWorld()};
+        }
+        glm::ivec2 imagesAt() const {
+            return onScreen ? glm::ivec2{ScreenBlur::margin} - glm::ivec2{pixels.x, pixels.y}
+                            : glm::ivec2{0};
         }
     };
 
@@ -79,6 +89,11 @@ struct Renderer::Parts {
     shadow::ShadowStatistics prepareMaps(const Seen& seen, const scene::Viewport& viewport);
     /// Finds the factors of an upload's lights, where they are traced, and binds them.
     void trace(const Seen& seen, const Lights::Uploaded& lit, RayShadows& into, glm::ivec2 size);
+    /// Blurs the factors of an upload's lights on the screen, and binds them.
+    void blur(const Seen& seen, const Lights::Uploaded& lit, ScreenBlur& into,
+              FrameStatistics& done);
+    /// Adds the lights and their maps. In place of maps there are images, where they were made.
+    static void light(SceneDrawer::ColorPass& pass, const Seen& seen, const Lights::Uploaded& lit);
     void combine(const Target& target, const Seen& seen,
                  const shadow::ShadowMaps::Arranged& arranged);
     Result<std::optional<shadow_fit::DepthSpan>> depthSpan(const scene::Window& window,
@@ -105,8 +120,9 @@ struct Renderer::Parts {
     };
     using DrawerKey = std::pair<field::Id, std::vector<field::Id>>;
     std::map<DrawerKey, Drawer> drawers;
-    std::map<field::Id, RayShadows> traced;  ///< by viewport
-    std::uint64_t version = 0;               ///< of the scene
+    std::map<field::Id, RayShadows> traced;   ///< by viewport
+    std::map<field::Id, ScreenBlur> blurred;  ///< by viewport
+    std::uint64_t version = 0;                ///< of the scene
     std::vector<field::Id> states;
     field::Applied pending;
     std::set<std::string> warned;
@@ -134,6 +150,7 @@ void Renderer::finish() const { parts_->gl.Finish(); }
 void Renderer::forgetShadows() {
     parts_->maps.invalidateAll();
     for (auto& [viewport, traced] : parts_->traced) traced.forget();
+    for (auto& [viewport, blurred] : parts_->blurred) blurred.forget();
 }
 
 void Renderer::update(const field::Applied& applied) {
@@ -144,6 +161,7 @@ void Renderer::update(const field::Applied& applied) {
         p.programs.forgetForeign(id);
         p.targets.erase(id);
         p.traced.erase(id);
+        p.blurred.erase(id);
         std::erase(p.states, id);
     }
     for (const auto& change : applied.changed) {
@@ -218,6 +236,12 @@ Result<Renderer::Parts::Seen> Renderer::Parts::look(const scene::Window& window,
     seen.drawer = found.drawer.get();
     seen.rays = &found.rays;
     seen.states = statesFor(viewport, camera->group.id);
+    const shadow::FilterInfo* filter =
+        seen.states.empty() ? nullptr : shadow::findFilter(seen.states.front()->filter.get());
+    seen.onScreen = filter != nullptr && filter->onScreen;
+    seen.shadowed = seen.onScreen ? ScreenBlur::widened(seen.camera.view,
+                                                        {seen.pixels.width, seen.pixels.height})
+                                  : seen.camera.view;
     seen.origin = seen.states.empty() ? originFor(camera->view) : seen.states.front()->origin.get();
     return seen;
 }
@@ -287,7 +311,7 @@ Result<void> Renderer::Parts::drawViewport(const scene::Window& window,
     done.shadowMs += lap(clock);
 
     const auto lit = lights.upload(drawer.flat(), seen.camera.view, seen.origin, viewport,
-                                   shadowed ? &maps : nullptr);
+                                   shadowed ? &maps : nullptr, seen.imagesAt());
     done.lights += lit.count;
     done.lightsUnseen += lit.unseen;
     done.lightsLeftOut = static_cast<int>(drawer.flat().lightsLeftOut());
@@ -299,13 +323,14 @@ Result<void> Renderer::Parts::drawViewport(const scene::Window& window,
         trace(seen, lit, traced.try_emplace(viewport.id(), gl).first->second, window.size);
         done.shadowMs += lap(clock);
     }
+    if (seen.onScreen && lit.maps.lights > 0) {
+        blur(seen, lit, blurred.try_emplace(viewport.id(), gl, programs).first->second, done);
+        done.shadowMs += lap(clock);
+    }
     beginPass(target, seen.pixels);
 
     SceneDrawer::ColorPass pass = seen.pass();
-    pass.scopedLights = lit.scoped;
-    pass.maps = lit.maps;
-    pass.lights = lit.count;
-    pass.directionalLights = lit.directional;
+    light(pass, seen, lit);
     pass.time = time;
     const auto count = [&](const PassStatistics& drawn) {
         done.triangles += drawn.triangles;
@@ -313,7 +338,7 @@ Result<void> Renderer::Parts::drawViewport(const scene::Window& window,
         done.chunksCulled += drawn.chunksCulled;
     };
     count(drawer.drawOpaque(pass));
-    if (foreign) combine(target, seen, lit.maps);
+    if (foreign) combine(target, seen, pass.maps);
     overlay.drawBackground(scene, viewport, seen.camera.part);
     count(drawer.drawBlended(pass));
     done.colorMs += lap(clock);
@@ -405,7 +430,7 @@ shadow::ShadowStatistics Renderer::Parts::prepareMaps(const Seen& seen,
         offset = {.factor = shadowed->offFactor, .units = shadowed->offBias};
     const auto done = maps.prepare(
         seen.states,
-        {.seen = seen.drawer->seenBy(seen.camera.view), .offset = offset ? &*offset : nullptr},
+        {.seen = seen.drawer->seenBy(seen.shadowed), .offset = offset ? &*offset : nullptr},
         *seen.drawer);
     if (done.refused > 0)
         warnOnce(
@@ -435,6 +460,45 @@ void Renderer::Parts::trace(const Seen& seen, const Lights::Uploaded& lit, RaySh
         into.end(pass, lit.traced, *rays);
     }
     into.bind();
+}
+
+void Renderer::Parts::blur(const Seen& seen, const Lights::Uploaded& lit, ScreenBlur& into,
+                           FrameStatistics& done) {
+    const ScreenBlur::Pass pass{.clipFromEye = seen.shadowed.clipFromEye,
+                                .eyeFromWorld = seen.shadowed.eyeFromWorld,
+                                .pixels = {seen.pixels.width, seen.pixels.height},
+                                .maps = lit.maps,
+                                .version = version};
+    done.kernelPixels = ScreenBlur::reach;
+    if (!into.has(pass)) {
+        into.start(pass);
+        SceneDrawer::ColorPass colors = seen.passOf(seen.shadowed);
+        colors.maps = lit.maps;
+        for (int first = 0; first < lit.maps.lights; first += ScreenBlur::atOnce) {
+            const int count = std::min(ScreenBlur::atOnce, lit.maps.lights - first);
+            into.begin(first, count);
+            const auto drawn = seen.drawer->drawUnblurred(colors, first, count);
+            done.shadowTriangles += drawn.triangles;
+            into.blur(first, count);
+        }
+        done.factorPixels += static_cast<std::uint64_t>(into.size().x) *
+                             static_cast<std::uint64_t>(into.size().y) *
+                             static_cast<std::uint64_t>(lit.maps.lights);
+    }
+    done.factorBytes += into.bytes();
+    into.bind();
+}
+
+void Renderer::Parts::light(SceneDrawer::ColorPass& pass, const Seen& seen,
+                            const Lights::Uploaded& lit) {
+    pass.scopedLights = lit.scoped;
+    pass.lights = lit.count;
+    pass.directionalLights = lit.directional;
+    pass.maps = lit.maps;
+    // What is in an image belongs to the opaque surface behind.
+    if (!lit.maps.images) pass.blendedMaps = lit.maps;
+    if (seen.onScreen && lit.maps.lights > 0)
+        pass.maps = {.mapsPerLight = 1, .lights = lit.maps.lights, .images = true};
 }
 
 void Renderer::Parts::combine(const Target& target, const Seen& seen,
@@ -520,19 +584,21 @@ Result<image::Image> Renderer::shadowFactor(const scene::Window& window, std::si
         p.programs.useFilter(seen.states.front()->filter.get());
         p.prepareMaps(seen, *viewport);
     }
-    const auto lit = p.lights.upload(drawer.flat(), seen.camera.view, seen.origin, *viewport,
-                                     seen.states.empty() ? nullptr : &p.maps, index);
+    Parts::Seen whole = seen;
+    whole.pixels.x = whole.pixels.y = 0;
+    const auto lit =
+        p.lights.upload(drawer.flat(), seen.camera.view, seen.origin, *viewport,
+                        seen.states.empty() ? nullptr : &p.maps, whole.imagesAt(), index);
 
     const auto& at = seen.pixels;
     gl::Texture factor{gl, GLenum{GL_TEXTURE_2D}};
     gl::Texture depth{gl, GLenum{GL_TEXTURE_2D}};
     gl::Framebuffer framebuffer{gl};
     RayShadows rays{gl};
-    if (!lit.traced.empty()) {
-        Parts::Seen whole = seen;
-        whole.pixels.x = whole.pixels.y = 0;
-        p.trace(whole, lit, rays, {at.width, at.height});
-    }
+    ScreenBlur blurred{gl, p.programs};
+    if (!lit.traced.empty()) p.trace(whole, lit, rays, {at.width, at.height});
+    FrameStatistics uncounted;
+    if (seen.onScreen && lit.maps.lights > 0) p.blur(whole, lit, blurred, uncounted);
     gl.TextureStorage2D(factor.id(), 1, GL_R8, at.width, at.height);
     gl.TextureStorage2D(depth.id(), 1, GL_DEPTH_COMPONENT32F, at.width, at.height);
     gl.NamedFramebufferTexture(framebuffer.id(), GL_COLOR_ATTACHMENT0, factor.id(), 0);
@@ -546,7 +612,7 @@ Result<image::Image> Renderer::shadowFactor(const scene::Window& window, std::si
     gl.ClearColor(128.0F / 255.0F, 0.0F, 0.0F, 0.0F);
     gl.Clear(GLbitfield{GL_DEPTH_BUFFER_BIT} | GLbitfield{GL_COLOR_BUFFER_BIT});
     SceneDrawer::ColorPass pass = seen.pass();
-    pass.maps = lit.maps;
+    Parts::light(pass, seen, lit);
     drawer.drawFactor(pass);
     image::Image picture = image::blank(at.width, at.height, 1);
     gl.ReadPixels(0, 0, at.width, at.height, GL_RED, GL_UNSIGNED_BYTE, picture.pixels.data());

@@ -6,18 +6,18 @@ namespace gnomon::render {
 namespace {
 
 /// @param lights  that the program is written out for
-void useMaps(Variant& variant, const SceneDrawer::ColorPass& pass, int lights) {
-    if (pass.maps.mapsPerLight == 0) return;
-    variant.mapsPerLight = pass.maps.mapsPerLight;
-    variant.shadowLights = pass.maps.lights;
+void useMaps(Variant& variant, const shadow::ShadowMaps::Arranged& maps, int lights) {
+    if (maps.mapsPerLight == 0) return;
+    variant.mapsPerLight = maps.mapsPerLight;
+    variant.shadowLights = maps.lights;
     variant.features |= Variant::shadows;
-    if (pass.maps.traced) {
-        variant.features |= Variant::traced;
+    if (maps.images) {
+        variant.features |= Variant::factorImages;
         return;
     }
-    variant.places = std::min({pass.maps.lights, lights, Variant::maxPlaces});
-    if (pass.maps.paged) variant.features |= Variant::pagedMaps;
-    if (pass.maps.perspective) variant.features |= Variant::perspectiveMaps;
+    variant.places = std::min({maps.lights, lights, Variant::maxPlaces});
+    if (maps.paged) variant.features |= Variant::pagedMaps;
+    if (maps.perspective) variant.features |= Variant::perspectiveMaps;
 }
 
 }  // namespace
@@ -179,9 +179,8 @@ void SceneDrawer::useSurface(const BatchState& state, const ColorPass& pass) {
         variant.otherLights = 0;
         variant.features |= Variant::manyLights;
     }
-    // What is traced belongs to the opaque surface behind.
-    if (!(state.blend && pass.maps.traced))
-        useMaps(variant, pass, variant.directionalLights + variant.otherLights);
+    useMaps(variant, state.blend ? pass.blendedMaps : pass.maps,
+            variant.directionalLights + variant.otherLights);
     if ((state.features & Variant::unlit) != 0) {
         variant = {.format = state.format, .features = state.features};
     }
@@ -192,12 +191,17 @@ void SceneDrawer::useSurface(const BatchState& state, const ColorPass& pass) {
     gl_.BindTextures(0, 3, state.textures.data());
 }
 
-PassStatistics SceneDrawer::drawOpaque(const ColorPass& pass) {
+PassStatistics SceneDrawer::gatherNearestFirst(const ColorPass& pass) {
     const PassStatistics done = gather(pass, false);
-    const auto states = batches_.batches();
-    for (std::size_t i = 0; i < states.size(); ++i)
-        std::sort(items_[i].begin(), items_[i].end(),
+    for (auto& items : items_)
+        std::sort(items.begin(), items.end(),
                   [](const Item& a, const Item& b) { return a.distance < b.distance; });
+    return done;
+}
+
+PassStatistics SceneDrawer::drawOpaque(const ColorPass& pass) {
+    const PassStatistics done = gatherNearestFirst(pass);
+    const auto states = batches_.batches();
     flush(states, [&](const BatchState& state) { useSurface(state, pass); }, {});
     for (std::size_t i = 0; i < states.size(); ++i)
         if (states[i].foreign != nullptr && !items_[i].empty())
@@ -285,7 +289,7 @@ void SceneDrawer::drawFactor(const ColorPass& pass) {
                   .pass = Variant::Pass::factor,
                   .format = state.format,
                   .features = state.features & (Variant::alphaMask | Variant::diffuseMap)};
-              useMaps(variant, pass, 1);
+              useMaps(variant, pass.maps, 1);
               const GLuint program = programs_.mesh(variant);
               gl_.UseProgram(program);
               gl_.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, &pass.clipFromOrigin[0][0]);
@@ -293,6 +297,31 @@ void SceneDrawer::drawFactor(const ColorPass& pass) {
               gl_.BindTextures(0, 3, state.textures.data());
           },
           {.foreign = true});
+}
+
+PassStatistics SceneDrawer::drawUnblurred(const ColorPass& pass, int firstLight, int lightCount) {
+    const PassStatistics done = gatherNearestFirst(pass);
+    flush(batches_.batches(),
+          [&](const BatchState& state) {
+              const bool masked = (state.features & Variant::alphaMask) != 0;
+              Variant variant{
+                  .pass = Variant::Pass::unblurred,
+                  .format = masked ? state.format & (hasTexCoords | hasColors) : 0U,
+                  .features = state.features & (Variant::alphaMask | Variant::diffuseMap),
+                  .firstLight = firstLight,
+                  .lightCount = lightCount};
+              useMaps(variant, pass.maps, firstLight + lightCount);
+              const GLuint program = programs_.mesh(variant);
+              const math::mat3 eyeFromOrigin{math::dmat3{pass.eyeFromWorld}};
+              gl_.UseProgram(program);
+              gl_.ProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, &pass.clipFromOrigin[0][0]);
+              gl_.ProgramUniformMatrix3fv(program, 4, 1, GL_FALSE, &eyeFromOrigin[0][0]);
+              if (!masked) return;
+              batches_.bindMaterial(state.material);
+              gl_.BindTextures(0, 3, state.textures.data());
+          },
+          {.positionsOnly = true, .foreign = true});
+    return done;
 }
 
 void SceneDrawer::drawDepth(const ColorPass& pass) {

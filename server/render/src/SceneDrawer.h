@@ -47,6 +47,7 @@ public:
         math::dvec3 eyeWorld{0.0};
         bool scopedLights = false;
         shadow::ShadowMaps::Arranged maps = {};
+        shadow::ShadowMaps::Arranged blendedMaps = {};  ///< of what is not the surface behind
         int lights = 0;
         int directionalLights = 0;  ///< the first of them
         double time = 0.0;
@@ -57,6 +58,8 @@ public:
     PassStatistics drawBlended(const ColorPass& pass);
     /// The first light's factor on everything opaque.
     void drawFactor(const ColorPass& pass);
+    /// Surfaces of everything opaque, and of some lights factors and kernels, for ScreenBlur.
+    PassStatistics drawUnblurred(const ColorPass& pass, int firstLight, int lightCount);
     /// Depth alone of everything opaque or masked.
     void drawDepth(const ColorPass& pass);
     /// Depths in eye space between which blended chunks may be seen, by their boxes; nothing
@@ -73,6 +76,7 @@ private:
     void uploadInstances();
     void writeInstance(std::size_t index);
     PassStatistics gather(const ColorPass& pass, bool blended);
+    PassStatistics gatherNearestFirst(const ColorPass& pass);
     /// What of a mesh a pass reads, and whose meshes it draws.
     struct Flush {
         bool positionsOnly = false;

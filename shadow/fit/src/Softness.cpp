@@ -11,7 +11,8 @@ namespace {
 
 /// What blurs whole maps knows nothing beyond a page.
 constexpr int largePage = 4096;
-constexpr std::array<FilterUse, 10> uses{{{"hard", Spread::none},
+constexpr std::array<FilterUse, 11> uses{{{"hard", Spread::none},
+                                          {"gauss", Spread::fixed, shadow_fit::pageTexels, 1.8},
                                           {"pcf", Spread::fixed},
                                           {"rotated", Spread::fixed},
                                           {"hardware", Spread::fixed},

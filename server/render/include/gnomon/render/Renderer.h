@@ -27,6 +27,11 @@ struct FrameStatistics {
     std::uint64_t pagesUnseen = 0;
     std::uint64_t mapTexels = 0;  ///< drawn this frame
     std::uint64_t mapBytes = 0;   ///< held
+    /// Of filters that blur on the screen: pixels whose factor was found this frame, with margins;
+    /// memory held; and how wide a kernel's half may be at the most, pixels.
+    std::uint64_t factorPixels = 0;
+    std::uint64_t factorBytes = 0;
+    int kernelPixels = 0;
     int lights = 0;
     int lightsUnseen = 0;   ///< reach nothing that is seen
     int lightsLeftOut = 0;  ///< more than a view can have

@@ -42,6 +42,9 @@ struct FilterInfo {
     /// How far around a place it reads the map, texels, where the light's reach is less.
     float leastTexels = 1.0F;
     bool bleeds = false;  ///< what is in shadow may be lit: it says how much may be lit at the most
+    /// What it finds is blurred on the screen before anything is shaded with it. Its GLSL has a
+    /// `float kernelTexels` besides: the kernel's radius in texels, of what was looked up.
+    bool onScreen = false;
 };
 
 /// Every filter built in, sorted by name.

@@ -88,7 +88,7 @@ public:
         int lights = 0;            ///< the first so many lights have a place in the block
         bool paged = false;        ///< PAGED_MAPS: some map has more than one page
         bool perspective = false;  ///< PERSPECTIVE_MAPS: some map has a w that is not 1
-        bool traced = false;       ///< there are no maps but factors, as many as lights
+        bool images = false;       ///< there are no maps but images of factors, one a light
         friend bool operator==(const Arranged&, const Arranged&) = default;
     };
     /// Puts the maps in the order of the lights that are shaded and binds maps, table and pages for
