@@ -203,9 +203,10 @@ void RenderTest::expectClose(const Rgb& found, const Rgb& expected, int toleranc
 
 namespace {
 
-/// They read maps as another filter does, which is tried with every fit; what is theirs shows with
-/// one warp and with cascades.
-constexpr std::array<std::string_view, 4> variants{"rotated", "hardware", "vsm16", "evsm16"};
+/// They read maps as another filter does (pcf, vsm, hard), which is tried with every fit; what is
+/// theirs shows with one warp and with cascades.
+constexpr std::array<std::string_view, 7> variants{"rotated", "hardware", "square", "gauss",
+                                                   "vsm16",   "evsm",     "evsm16"};
 
 }  // namespace
 

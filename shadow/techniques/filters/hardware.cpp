@@ -11,7 +11,7 @@ FilterInfo describe_hardware() {
     return {.name = "hardware",
             .source = "Reeves, Salesin, Cook 1987",
             .glsl = R"glsl(
-layout(binding = 10) uniform sampler2DArrayShadow shadowComparisons;
+layout(binding = 13) uniform sampler2DArrayShadow shadowComparisons;
 
 float compared(int first, ShadowPoint point, float steps) {
     vec2 corner;

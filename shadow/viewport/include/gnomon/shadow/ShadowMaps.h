@@ -64,7 +64,7 @@ public:
     static constexpr GLuint tableBinding = 5;
     static constexpr GLuint pagesUnit = 8;  ///< texture units
     static constexpr GLuint pyramidUnit = 9;
-    static constexpr GLuint comparingUnit = 10;  ///< the pages again, compared when they are read
+    static constexpr GLuint comparingUnit = 13;  ///< the pages again, compared when they are read
 
     explicit ShadowMaps(const gl::Api& gl);
     ~ShadowMaps();
