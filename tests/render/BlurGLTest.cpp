@@ -99,7 +99,6 @@ TEST_P(EdgeBlurGLTest, AnEdgeOnAPlaneIsTheErrorFunction) {
             const dvec3 place = onPlane(lens, x, y, at.slope);
             if (std::max(std::abs(place.x), std::abs(place.z)) > 5.0) continue;
             const double beside = glm::dot(place, across);
-            if (std::abs(beside) > 1.0) continue;  // the edge is what is judged
             const double right = normalShare(beside / (0.5 * softness));
             const double value = pixel(found, x, y)[0] / 255.0;
             if (std::abs(value - right) > worst) {
@@ -115,6 +114,34 @@ TEST_P(EdgeBlurGLTest, AnEdgeOnAPlaneIsTheErrorFunction) {
                                 << where.x << ", " << where.z;
     EXPECT_GT(compared, 5000);
     EXPECT_GT(between, 1000);
+}
+
+// Kernels at the sides of the view read what lies beyond it, where cascades, whose sides have
+// lengths of their own, end.
+TEST_F(BlurGLTest, DeepInAShadowNothingIsLitUpToTheSidesOfTheView) {
+    const auto sun = light<scene::DirectionalLight>(root, {-5.0, 5.0, 0.0}, {0.0, 0.0, 0.0});
+    const auto painted = paint(sun.node, phong(vec3{0.8F}));
+    add(painted.node, quad({-9.0F, 0.0F, 9.0F}, {18.0F, 0.0F, 0.0F}, {0.0F, 0.0F, -18.0F}));
+    add(painted.node, quad({-30.0F, 30.0F, -60.0F}, {0.0F, 0.0F, 120.0F}, {-60.0F, 0.0F, 0.0F}));
+    const View eye = blurred(perspectiveView({2.0, 4.0, 9.0}, {0.0, 0.0, 0.0}), "csm", 0.3);
+    for (const char* filter : {"pcf", "rotated", "hardware", "ppcf", "gauss"}) {
+        edit(eye.viewport)->technique = std::string{"csm+"} + filter;
+        const image::Image found = factor(eye, sun.node);
+        const math::View lens = viewOf(eye);
+        int lit = 0;
+        int judged = 0;
+        for (int y = 0; y < size; ++y) {
+            for (int x = 0; x < size; ++x) {
+                const dvec3 place = onPlane(lens, x, y, 0.0);
+                if (std::max(std::abs(place.x), std::abs(place.z)) > 8.5 || place.x > -0.5)
+                    continue;
+                ++judged;
+                lit += pixel(found, x, y)[0] > 2 ? 1 : 0;
+            }
+        }
+        EXPECT_EQ(lit, 0) << filter << ", of " << judged;
+        EXPECT_GT(judged, 5000);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(

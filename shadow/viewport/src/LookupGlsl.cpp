@@ -11,7 +11,8 @@ struct ShadowMap {
                          // w: 1 / map
     uvec4 pages;         // x: pages a side, y: first entry of the table, z: the layer where x is 1
     vec4 alongU;         // what a step across the rays does to x, y and w; and so does alongV.
-    vec4 alongV;         // alongU.w: how far lookups go around a place, a share of the map's side
+    vec4 alongV;         // alongU.w, alongV.w: how far lookups go around a place in x and y, shares
+                         // of the map's sides
     vec4 light;          // x: radius of its penumbra, in units of the light's plane, by depth times w;
                          // y, z: a place's distance along its axis is y + z * depth * w (parallel: 1)
                          // w: radius of fixed kernels, metres
@@ -227,8 +228,9 @@ float shadowFactor(int first, ShadowPoint point) {
             int map = first + k;
             vec4 fromFirst = shadowMaps[map].fromFirst;
             vec2 at = point.place.xy * fromFirst.xy + fromFirst.zw;
-            vec2 off = abs(at * shadowMaps[map].size.w - 0.5);
-            float inside = 0.5 - max(off.x, off.y) - shadowMaps[map].alongU.w;
+            vec2 off = abs(at * shadowMaps[map].size.w - 0.5) +
+                       vec2(shadowMaps[map].alongU.w, shadowMaps[map].alongV.w);
+            float inside = 0.5 - max(off.x, off.y);
             if (inside >= 0.0 && k >= next) {
                 here = ShadowPoint(vec3(at, point.place.z), point.slope / fromFirst.xy,
                                    pagesOf(map), point.w, point.axial, fromFirst.xy);

@@ -104,11 +104,18 @@ void ShadowMaps::soften(MapBlock& block, const scene::ShadowState& state,
     block.light = {static_cast<float>(state.extent * perDepth),
                    static_cast<float>(parallel ? 1.0 : atLight / steep),
                    static_cast<float>(parallel ? 0.0 : -1.0 / steep), state.softness};
-    const double share = state.reach *
-                         glm::length(math::dvec2{texelsFromWorld * math::dvec4{u, 0.0}}) /
-                         state.mapSize;
-    block.alongU = along(u, state.clipFromWorld.size() > 1 ? share : 0.0);
-    block.alongV = along(v, 0.0);
+    // Of each side by itself: a cascade's may be of different lengths. What is blurred on the
+    // screen reads one place.
+    const FilterInfo* filter = findFilter(state.filter.get());
+    const bool wide = state.clipFromWorld.size() > 1 && !(filter != nullptr && filter->onScreen);
+    const auto share = [&](const math::dvec4& row) {
+        const math::dvec3 texels{row};
+        return wide ? state.reach * std::hypot(glm::dot(texels, u), glm::dot(texels, v)) /
+                          state.mapSize
+                    : 0.0;
+    };
+    block.alongU = along(u, share(rows[0]));
+    block.alongV = along(v, share(rows[1]));
     const int row = state.kernelSamples > 0 ? state.kernelSamples : state.kernelWidth;
     block.kernel = {static_cast<float>(state.kernelWidth), static_cast<float>(std::max(row, 1)),
                     state.reach, state.quality};
