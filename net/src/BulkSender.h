@@ -20,8 +20,8 @@ struct BulkItem {
 /// Feeds a bulk channel one chunk at a time, so that what waits here costs no second copy.
 class BulkSender {
 public:
-    /// @param packer  outlives this; nullptr: everything goes as it is
-    explicit BulkSender(Packer* packer = nullptr) noexcept : packer_{packer} {}
+    /// @param packer  outlives this
+    explicit BulkSender(Packer& packer) noexcept : packer_{packer} {}
 
     void attach(std::shared_ptr<Channel> channel) {
         channel_ = std::move(channel);
@@ -56,14 +56,8 @@ private:
         const BulkItem& item = items_.front();
         const auto rest = item.whole.bytes.subspan(offset_);
         const auto chunk = rest.first(std::min(rest.size(), chunkBytes));
-        auto head = item.head(offset_, chunk);
-        const Part part{.owner = item.whole.owner, .bytes = chunk};
-        if (packer_ != nullptr) {
-            packer_->queue(*channel_, std::move(head), part);
-        } else {
-            channel_->queue(Part::of(std::move(head)));
-            channel_->queue(part);
-        }
+        packer_.queue(*channel_, item.head(offset_, chunk),
+                      {.owner = item.whole.owner, .bytes = chunk});
         offset_ += chunk.size();
         waitingBytes_ -= chunk.size();
         if (offset_ == item.whole.bytes.size()) {
@@ -74,7 +68,7 @@ private:
         channel_->flush();
     }
 
-    Packer* packer_;
+    Packer& packer_;
     std::shared_ptr<Channel> channel_;
     std::deque<BulkItem> items_;
     std::size_t offset_ = 0;

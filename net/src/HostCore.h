@@ -64,7 +64,8 @@ private:
         std::shared_ptr<Channel> relay = {};  // payloads that another server passes on
         std::unique_ptr<Relays> relays = {};  // those we pass ours on to
         Unpacker fromClient = {}, fromRelay = {};
-        BulkSender images{};
+        Packer plain{Compress::never};  // the client takes no Packed
+        BulkSender images{plain};
         bool joined = false;  // the main thread knows of it
     };
 

@@ -104,8 +104,7 @@ private:
 
     // HubRelay.cpp: who gets payloads from whom.
     Peer* relayFor(const Peer& peer) const;
-    void provide(Peer& peer, Peer* relay, const std::vector<PayloadLedger::Kept>& missing);
-    std::vector<PayloadLedger::Kept> missingAt(const Peer& peer) const;
+    void provide(Peer& peer, Peer* relay);
     void forgetReleased();
     void leaveTree(Peer& peer);
 

@@ -23,7 +23,7 @@ constexpr Milliseconds secondLook{5};
 void HubCore::connected(Peer& peer) {
     peer.standing.joined = true;
     peer.standing.snapshot = preparedN_;
-    provide(peer, relayFor(peer), ledger_.since(0, preparedN_));
+    provide(peer, relayFor(peer));
     sendSnapshot(peer);
 }
 

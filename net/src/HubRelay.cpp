@@ -41,8 +41,10 @@ Peer* HubCore::relayFor(const Peer& peer) const {
     return direct < options_.relay ? nullptr : best;
 }
 
-/// Sees to it that it gets these, and all that come from now on.
-void HubCore::provide(Peer& peer, Peer* relay, const std::vector<PayloadLedger::Kept>& missing) {
+/// Sees to it that it gets what it may not have, and all that comes from now on. It is ready for a
+/// frame only when it had all that the frame needs.
+void HubCore::provide(Peer& peer, Peer* relay) {
+    const auto missing = ledger_.since(peer.standing.lastReady, peer.standing.applied());
     peer.standing.relay = relay;
     peer.standing.level = relay != nullptr ? relay->standing.level + 1 : 0;
     if (relay == nullptr) {
@@ -66,21 +68,13 @@ void HubCore::provide(Peer& peer, Peer* relay, const std::vector<PayloadLedger::
     relay->flush();
 }
 
-/// What it may not have got from the relay that is lost. It is ready for a frame only when it had
-/// all that the frame needs.
-std::vector<PayloadLedger::Kept> HubCore::missingAt(const Peer& peer) const {
-    const Standing& standing = peer.standing;
-    return ledger_.since(standing.lastReady, std::max(standing.lastReady, standing.snapshot));
-}
-
 /// Nobody behind a relay can need it any more.
 void HubCore::forgetReleased() {
     if (!ledger_.holdsAny()) return;
     std::uint64_t have = preparedN_;
     for (const auto& peer : peers_) {
         const Standing& standing = peer->standing;
-        if (standing.joined && standing.relay != nullptr)
-            have = std::min(have, std::max(standing.lastReady, standing.snapshot));
+        if (standing.joined && standing.relay != nullptr) have = std::min(have, standing.applied());
     }
     ledger_.forget(have);
 }
@@ -98,7 +92,7 @@ void HubCore::leaveTree(Peer& peer) {
             if (stopped_) return;
             for (const auto& child : peers_)
                 if (child->standing.joined && child->standing.relay == gone)
-                    provide(*child, relayFor(*child), missingAt(*child));
+                    provide(*child, relayFor(*child));
         });
 }
 
@@ -112,7 +106,7 @@ void HubCore::relayLost(Peer& peer, const wire::RelayLost& lost) {
     log(LogLevel::info, fmt::format("{}: cannot pass payloads on to {}: {}", peer.label(),
                                     child.label(), lost.why));
     --peer.standing.relays;
-    provide(child, nullptr, missingAt(child));
+    provide(child, nullptr);
 }
 
 }  // namespace gnomon::net

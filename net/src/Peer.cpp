@@ -28,7 +28,7 @@ Peer::Peer(asio::io_context& io, ServerAddress address, const SyncOptions& optio
       tls_{std::move(tls)},
       dialer_{io, tls_ != nullptr},
       candidates_{randomToken()},
-      bulk_{&packer},
+      bulk_{packer},
       timer_{io},
       pingTimer_{io} {
     if (address_.lookup.empty()) return;

@@ -2,6 +2,7 @@
 
 #include <gnomon/net/HubTypes.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -51,6 +52,8 @@ struct Standing {
     std::uint64_t lastSwap = 0;  ///< sent
     std::uint64_t lastReady = 0;
     bool anyReady = false;
+    /// The frame up to which it has applied all, so far as we know.
+    std::uint64_t applied() const noexcept { return std::max(lastReady, snapshot); }
     RenderStats stats = {};
     std::optional<Depth> depth = {};
     std::uint64_t shownFrame = 0;

@@ -14,7 +14,7 @@ using Messages =
                net::wire::ServerHello, net::wire::Refused, net::wire::Depth, net::wire::Ready,
                net::wire::Digest, net::wire::Event, net::wire::Pong, net::wire::Log,
                net::wire::Image, net::wire::Relay, net::wire::RelayEnd, net::wire::RelayLost,
-               net::wire::Digests, net::wire::Lookup, net::wire::Announcement>;
+               net::wire::Digests, net::wire::Lookup, net::wire::Announcement, net::wire::Packed>;
 inline constexpr std::size_t messageCount = std::tuple_size_v<Messages>;
 /// The numbers behind them.
 inline constexpr std::size_t schemaNumber = messageCount;

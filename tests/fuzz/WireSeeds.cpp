@@ -63,6 +63,7 @@ void addWireSeeds(const Seeds& seeds) {
         {.n = 5, .list = {{.id = 1, .digest = 2}, {.id = 3}}},
         net::wire::Lookup::padded(77, "left"),
         {.token = 77, .instance = 5, .port = 7430, .server = "left"},
+        {.inner = 16, .size = 100, .head = bytes, .tail = bytes},
     };
     addMessages(seeds, messages, std::make_index_sequence<messageCount>{});
     seeds.add("wire", "schema", schemaNumber, schema);

@@ -1,9 +1,7 @@
 // Payloads that are compressed on their way.
 #include <gtest/gtest.h>
 
-#include <deque>
-
-#include "TestServer.h"
+#include "Servers.h"
 
 namespace gnomon::net::test {
 namespace {
@@ -20,8 +18,7 @@ class Compression : public testing::TestWithParam<int> {};
 
 /// Directly, and through other servers.
 TEST_P(Compression, SparesBytesAndChangesNothing) {
-    std::deque<TestServer> servers;
-    for (int i = 0; i < 3; ++i) servers.emplace_back("server" + std::to_string(i));
+    Servers servers{3};
     TestHub hub{{.timeout = 10s, .relay = GetParam(), .compress = Compress::always}};
     field::Aspect aspect{hub.types(), 2};
     for (TestServer& server : servers) hub->connect(server.address());
@@ -43,12 +40,7 @@ TEST_P(Compression, SparesBytesAndChangesNothing) {
     hub->frame({}, 0);
     EXPECT_EQ(hub->totals().sparedBytes, spared);
     EXPECT_GT(hub->totals().bulkBytes, sentTo * evenBytes);
-    for (TestServer& server : servers) {
-        ASSERT_TRUE(server.waitUntil([&](const Seen& s) { return s.digests.contains(n); }))
-            << server.name();
-        EXPECT_EQ(server.seen().digests.at(n), aspect.digest()) << server.name();
-        EXPECT_EQ(server.seen().error, "");
-    }
+    expectTheSameEverywhere(servers, n, aspect);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Compression, testing::Values(0, 1),

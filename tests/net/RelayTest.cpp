@@ -2,37 +2,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <deque>
 
-#include "TestServer.h"
+#include "Servers.h"
 
 namespace gnomon::net::test {
 namespace {
 
-/// So many servers, started but not connected.
-class Servers {
-public:
-    explicit Servers(int count) {
-        for (int i = 0; i < count; ++i) list_.emplace_back("server" + std::to_string(i));
-    }
-    TestServer& operator[](std::size_t i) { return list_[i]; }
-    auto begin() { return list_.begin(); }
-    auto end() { return list_.end(); }
-
-private:
-    std::deque<TestServer> list_;
-};
-
 constexpr std::size_t payloadBytes = std::size_t{3} << 20U;
 
-void expectTheSameEverywhere(Servers& servers, std::uint64_t n, field::Aspect& aspect,
-                             const TestServer* but = nullptr) {
+/// Each is there before the next one comes: with relay = 1 a chain.
+void connectInTurn(TestHub& hub, Servers& servers) {
     for (TestServer& server : servers) {
-        if (&server == but) continue;
-        ASSERT_TRUE(server.waitUntil([&](const Seen& s) { return s.digests.contains(n); }))
-            << server.name();
-        EXPECT_EQ(server.seen().digests.at(n), aspect.digest()) << server.name();
-        EXPECT_EQ(server.seen().error, "");
+        hub->connect(server.address());
+        ASSERT_TRUE(hub->waitForAll({}, eventually()));
     }
 }
 
@@ -112,10 +94,7 @@ TEST(Relay, ALostRelayInTheMidstOfALargePayloadIsMadeUpFor) {
     Servers servers{4};
     TestHub hub{{.timeout = 20s, .relay = 1}};  // a chain
     field::Aspect aspect{hub.types(), 2};
-    for (TestServer& server : servers) {
-        hub->connect(server.address());
-        ASSERT_TRUE(hub->waitForAll({}, eventually()));
-    }
+    ASSERT_NO_FATAL_FAILURE(connectInTurn(hub, servers));
     ASSERT_EQ(treeOf(*hub.operator->()).at(servers[0].name()),
               std::vector<std::string>{servers[1].name()});
     std::mt19937 random{1};
@@ -133,10 +112,7 @@ TEST(Relay, ALostRelayIsMadeUpForWhenTheNextFrameReleasesWhatItWasPassingOn) {
     Servers servers{3};
     TestHub hub{{.timeout = 20s, .relay = 1}};  // a chain
     field::Aspect aspect{hub.types(), 2};
-    for (TestServer& server : servers) {
-        hub->connect(server.address());
-        ASSERT_TRUE(hub->waitForAll({}, eventually()));
-    }
+    ASSERT_NO_FATAL_FAILURE(connectInTurn(hub, servers));
     std::mt19937 random{1};
     const Thing& thing = aspect.create<Thing>();
     field::edit(thing)->data = randomPayload(random, std::size_t{48} << 20U);

@@ -10,6 +10,8 @@ std::string_view version() noexcept;
 std::string_view meshVertex() noexcept;
 /// Light blocks and the surface's material.
 std::string_view meshCommon() noexcept;
+/// Texture unit of the images of factorLookup().
+inline constexpr unsigned factorUnit = 10;
 /// Of factors in an image: what lookupGlsl() and a filter are otherwise.
 std::string_view factorLookup() noexcept;
 /// Where a fragment is; before meshColor(), meshFactor() and meshUnblurred().

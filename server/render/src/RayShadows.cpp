@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <thread>
 
+#include "Glsl.h"
+
 namespace gnomon::render {
 namespace {
 
@@ -186,8 +188,8 @@ void RayShadows::end(const Pass& pass, std::span<const Light> lights,
 }
 
 void RayShadows::bind() const {
-    gl_.BindTextureUnit(factorUnit, factors_.id());
-    gl_.BindSampler(factorUnit, 0);
+    gl_.BindTextureUnit(glsl::factorUnit, factors_.id());
+    gl_.BindSampler(glsl::factorUnit, 0);
 }
 
 }  // namespace gnomon::render

@@ -17,8 +17,6 @@ namespace gnomon::render {
 /// may use. Of a light with an extent 16 rays a pixel go to the same points of it everywhere.
 class RayShadows {
 public:
-    static constexpr GLuint factorUnit = 10;  ///< texture unit
-
     explicit RayShadows(const gl::Api& gl);
 
     struct Light {

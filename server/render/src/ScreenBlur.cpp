@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "Glsl.h"
+
 namespace gnomon::render {
 namespace {
 
@@ -148,7 +150,7 @@ void ScreenBlur::blur(int firstLight, int lightCount) {
     made_ = true;
 }
 
-void ScreenBlur::bind() const { gl_.BindTextureUnit(factorUnit, factors_.id()); }
+void ScreenBlur::bind() const { gl_.BindTextureUnit(glsl::factorUnit, factors_.id()); }
 
 std::uint64_t ScreenBlur::bytes() const noexcept {
     const glm::ivec2 whole = blockCount_ * pixelsPerBlock;

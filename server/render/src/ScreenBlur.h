@@ -18,10 +18,9 @@ namespace gnomon::render {
 /// wider are cut off there. Only blocks of pixels within reach of an edge are blurred.
 class ScreenBlur {
 public:
-    static constexpr GLuint factorUnit = 10;  ///< texture unit
-    static constexpr int margin = 64;         ///< pixels
-    static constexpr int reach = 60;          ///< of the widest kernel, pixels: as in BlurGlsl.cpp
-    static constexpr int atOnce = 2;          ///< lights in one pass over the scene
+    static constexpr int margin = 64;  ///< pixels
+    static constexpr int reach = 60;   ///< of the widest kernel, pixels: as in BlurGlsl.cpp
+    static constexpr int atOnce = 2;   ///< lights in one pass over the scene
 
     ScreenBlur(const gl::Api& gl, Programs& programs);
 

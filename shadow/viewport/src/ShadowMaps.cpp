@@ -85,7 +85,8 @@ struct ShadowMaps::MapBlock {
 };
 
 /// What soft filters must know of a map.
-void ShadowMaps::soften(MapBlock& block, const scene::ShadowState& state,
+/// @param wide  lookups go around a place, and choose among several maps by that
+void ShadowMaps::soften(MapBlock& block, const scene::ShadowState& state, bool wide,
                         const math::dmat4& texelsFromWorld) {
     const math::dmat4 rows = glm::transpose(texelsFromWorld);
     const double steep = glm::length(math::dvec3{rows[2]});
@@ -104,10 +105,7 @@ void ShadowMaps::soften(MapBlock& block, const scene::ShadowState& state,
     block.light = {static_cast<float>(state.extent * perDepth),
                    static_cast<float>(parallel ? 1.0 : atLight / steep),
                    static_cast<float>(parallel ? 0.0 : -1.0 / steep), state.softness};
-    // Of each side by itself: a cascade's may be of different lengths. What is blurred on the
-    // screen reads one place.
-    const FilterInfo* filter = findFilter(state.filter.get());
-    const bool wide = state.clipFromWorld.size() > 1 && !(filter != nullptr && filter->onScreen);
+    // Of each side by itself: a cascade's may be of different lengths.
     const auto share = [&](const math::dvec4& row) {
         const math::dvec3 texels{row};
         return wide ? state.reach * std::hypot(glm::dot(texels, u), glm::dot(texels, v)) /
@@ -138,6 +136,7 @@ struct ShadowMaps::Frame {
     Pool& pool;
     double leastTexels = 1.0;
     bool wholePages = false;  ///< are read, whatever of them is looked up
+    bool wide = true;         ///< more than one place is read; not so by what blurs on the screen
     ShadowStatistics& done;
     SeenInMap seen = {};
     math::dmat4 firstFromWorld{1.0};  ///< of the light's first map, to its texels
@@ -293,7 +292,7 @@ void ShadowMaps::prepareMap(const scene::ShadowState& state, std::uint32_t map, 
         .size = {static_cast<float>(mapSize), static_cast<float>(pageSize),
                  1.0F / static_cast<float>(pageSize + 2), 1.0F / static_cast<float>(mapSize)},
         .pages = {static_cast<std::uint32_t>(side), first, table_[first], 0U}};
-    soften(block, state, texelsFromWorld);
+    soften(block, state, frame.wide && state.clipFromWorld.size() > 1, texelsFromWorld);
     blocks_.push_back(block);
 }
 
@@ -330,6 +329,7 @@ ShadowStatistics ShadowMaps::prepare(std::span<const scene::ShadowState* const> 
             .pool = pagePool,
             .leastTexels = filter == nullptr ? 1.0 : static_cast<double>(filter->leastTexels),
             .wholePages = filter != nullptr && filter->bleeds,
+            .wide = filter == nullptr || !filter->onScreen,
             .done = done};
         for (std::uint32_t map = 0; map < maps; ++map) prepareMap(*state, map, frame);
         if (frame.drawing) {

@@ -110,7 +110,7 @@ private:
     struct MapBlock;
     struct Frame;  // what prepare() works with
 
-    static void soften(MapBlock& block, const scene::ShadowState& state,
+    static void soften(MapBlock& block, const scene::ShadowState& state, bool wide,
                        const math::dmat4& texelsFromWorld);
 
     void prepareMap(const scene::ShadowState& state, std::uint32_t map, Frame& frame);
