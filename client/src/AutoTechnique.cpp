@@ -14,8 +14,9 @@ constexpr double usualFrameMs = 33.3;
 
 std::string text(const Measured& m) {
     std::array<char, 128> line{};
-    std::snprintf(line.data(), line.size(), "%s at %d: %.1f ms, %.2f %% error", m.technique.c_str(),
-                  m.mapSize, m.ms, m.error);
+    std::snprintf(line.data(), line.size(), "%s at %d%s: %.1f ms, %.2f %% error",
+                  m.technique.c_str(), m.mapSize, m.quality ? " in quality mode" : "", m.ms,
+                  m.error);
     return line.data();
 }
 
@@ -74,13 +75,19 @@ Choice choose(const std::vector<Measured>& measured, const Budget& budget) {
                     (budget.error ? ", where nothing is within " + percent : ""));
 }
 
-std::vector<Measured> candidates(bool extent) {
+std::vector<Measured> candidates(bool extent, bool quality) {
     std::vector<Measured> all;
     for (const char* fit : {"std", "trapez", "lispsm", "csm"})
         for (const int size : {512, 1024, 2048, 4096})
-            all.push_back(
-                {.technique = std::string{fit} + (extent ? "+ppcf" : ""), .mapSize = size});
-    all.push_back({.technique = "ray"});
+            all.push_back({.technique = std::string{fit} + (extent ? "+ppcf" : ""),
+                           .mapSize = size,
+                           .quality = quality});
+    // Samples are of use once the map is finer than a penumbra.
+    if (extent && !quality)
+        for (const char* technique : {"lispsm+ppcf", "csm+ppcf"})
+            for (const int size : {2048, 4096})
+                all.push_back({.technique = technique, .mapSize = size, .quality = true});
+    all.push_back({.technique = "ray", .quality = quality});
     return all;
 }
 

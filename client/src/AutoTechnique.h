@@ -19,7 +19,8 @@ Budget budgetOf(const config::Shadow& shadow) noexcept;
 struct Measured {
     std::string technique = {};
     int mapSize = 0;
-    double ms = 0.0;     ///< median frame
+    bool quality = false;  ///< quality mode: more samples
+    double ms = 0.0;       ///< median frame
     double error = 0.0;  ///< percent: wrong pixels, or RMSE of the factor of a light with an extent
 };
 
@@ -32,7 +33,8 @@ struct Choice {
 /// budgets, else as with the frame budget alone. @pre Something was measured.
 Choice choose(const std::vector<Measured>& measured, const Budget& budget);
 
-/// The techniques that are tried: without a filter, or with the one for lights with an extent.
-std::vector<Measured> candidates(bool extent);
+/// What is tried: techniques without a filter, or with the one for lights with an extent.
+/// @param quality  quality mode is asked for; else it is tried where more samples are of use
+std::vector<Measured> candidates(bool extent, bool quality);
 
 }  // namespace gnomon::client

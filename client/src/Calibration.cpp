@@ -21,6 +21,7 @@ public:
 
     bool look();
     bool hasExtent() const { return light_.extent > 0.0; }
+    bool isQualityAsked() const { return quality_; }
     void trace();
     void measure(Measured& candidate);
     void use(const Measured& candidate);
@@ -40,6 +41,8 @@ private:
     field::Ref<scene::Node> lightNode_ = {};
     shadow_fit::LightShape light_ = {};
     image::Image truth_ = {};
+    bool quality_ = false;  ///< as asked for; and so is
+    scene::DepthUse depthRange_ = scene::DepthUse::off;
 };
 
 /// False where there is no shadow to judge.
@@ -48,6 +51,8 @@ bool Calibration::look() {
     const scene::ShadowViewport* first = nullptr;
     viewports([&](const scene::ShadowViewport& v) { first = first == nullptr ? &v : first; });
     if (first == nullptr) return false;
+    quality_ = first->qualityMode;
+    depthRange_ = first->depthRange;
     scene::FlatScene flat{aspect};
     flat.update(first->root, {}, {});
     for (const auto& use : flat.lights()) {
@@ -83,6 +88,8 @@ void Calibration::use(const Measured& candidate) {
         auto e = edit(viewport);
         e->technique = candidate.technique;
         e->mapSize = candidate.mapSize;
+        e->qualityMode = candidate.quality || quality_;
+        e->depthRange = candidate.quality ? scene::DepthUse::exact : depthRange_;
     });
     session_.commit();
 }
@@ -124,7 +131,7 @@ Choice calibrate(LocalSession& session, const std::vector<field::Ref<scene::Wind
         return none;
     }
     calibration.trace();
-    auto all = candidates(calibration.hasExtent());
+    auto all = candidates(calibration.hasExtent(), calibration.isQualityAsked());
     for (std::size_t i = 0; i < all.size(); ++i) {
         calibration.measure(all[i]);
         console.progress("auto", static_cast<double>(i + 1) / static_cast<double>(all.size()),

@@ -45,6 +45,7 @@ void measureTechnique(config::Config& wall, const RunOptions& options, Console& 
     const Choice choice = options.choose(shot);
     wall.shadow.technique = choice.chosen.technique;
     if (choice.chosen.mapSize > 0) wall.shadow.mapSize = choice.chosen.mapSize;
+    wall.shadow.qualityMode = wall.shadow.qualityMode || choice.chosen.quality;
     console.line("auto: " + choice.why);
 }
 

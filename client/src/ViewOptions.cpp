@@ -210,6 +210,7 @@ void ShadowArguments::apply(config::Shadow& shadow) const {
         shadow.on = true;
     }
     if (mapSize) shadow.mapSize = *mapSize;
+    if (quality) shadow.qualityMode = true;
     if (depthRange) shadow.depthRange = *depthRange;
     if (frameBudget) shadow.frameBudget = frameBudget;
     if (errorBudget) shadow.errorBudget = errorBudget;
@@ -237,6 +238,7 @@ void addShadowOptions(CLI::App& command, ShadowArguments& shadow) {
             shadow.mapSize = *size;
         },
         "Texels a side of a shadow map", "N");
+    command.add_flag("--quality", shadow.quality, "Better shadows for more time: quality_mode");
     command
         .add_option("--frame-budget", shadow.frameBudget, "Milliseconds a frame that auto keeps to")
         ->type_name("MS")

@@ -34,10 +34,11 @@ void addViewOptions(CLI::App& command, ViewArguments& view);
 /// `--sun`, `--spot`, `--point`, each any number of times: suns first, then spots, then points.
 void addLightOptions(CLI::App& command, std::vector<LightOption>& lights);
 
-/// `--technique T`, `--map-size N`, `--depth-range USE`, checked as a config's are.
+/// `--technique T`, `--map-size N`, `--quality`, `--depth-range USE`, checked as a config's are.
 struct ShadowArguments {
     std::optional<std::string> technique = {};
     std::optional<int> mapSize = {};
+    bool quality = false;
     std::optional<config::DepthRange> depthRange = {};
     std::optional<double> frameBudget = {};  ///< milliseconds
     std::optional<double> errorBudget = {};  ///< percent

@@ -2,6 +2,8 @@
 #include <AutoTechnique.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace gnomon::client {
 namespace {
 
@@ -53,11 +55,21 @@ TEST(AutoTechnique, WithoutABudgetThirtyFramesASecond) {
 }
 
 TEST(AutoTechnique, SoftLightsGetTheSoftFilter) {
-    for (const Measured& candidate : candidates(true))
+    for (const Measured& candidate : candidates(true, false))
         EXPECT_TRUE(candidate.technique.find("+ppcf") != std::string::npos ||
                     candidate.technique == "ray");
-    for (const Measured& candidate : candidates(false))
+    for (const Measured& candidate : candidates(false, false))
         EXPECT_EQ(candidate.technique.find('+'), std::string::npos);
+}
+
+TEST(AutoTechnique, MoreSamplesAreTriedForSoftLightsAlone) {
+    const auto more = [](const std::vector<Measured>& all) {
+        return std::count_if(all.begin(), all.end(), [](const Measured& m) { return m.quality; });
+    };
+    EXPECT_GT(more(candidates(true, false)), 0);
+    EXPECT_EQ(more(candidates(false, false)), 0);
+    EXPECT_EQ(more(candidates(true, true)), std::ssize(candidates(true, true)))
+        << "whoever asks for it gets it";
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 namespace gnomon::client {
 namespace {
@@ -92,6 +93,34 @@ Chapter focusRegions() {
     return chapter;
 }
 
+/// The thesis' kernel, whole and with fewer samples a row, beside ours, usual and with more
+/// samples.
+Chapter kernels(const Registry& registry) {
+    Chapter chapter{.name = "kernels",
+                    .about = "Kernels of percentage-closer filtering: width, and samples a row",
+                    .variants = {variant("std", 1024)},
+                    .views = {lit("light across", 90, 40, 0.27)}};
+    for (const auto& [width, samples] : {std::pair{2, 2}, {4, 4}, {8, 2}, {8, 4}, {8, 8}}) {
+        Variant made = variant("std+square", 1024);
+        made.shadow.kernelWidth = width;
+        made.shadow.kernelSamples = samples;
+        made.label = fmt::format("std+square {0}x{0} of {1} a row", width, samples);
+        chapter.variants.push_back(std::move(made));
+    }
+    for (const char* technique :
+         {"std+pcf", "std+rotated", "std+hardware", "std+gauss", "std+ppcf"}) {
+        if (present({technique}, registry).empty()) continue;
+        chapter.variants.push_back(variant(technique, 1024));
+    }
+    for (const char* technique : {"std+pcf", "std+ppcf"}) {
+        Variant made = variant(technique, 1024);
+        made.shadow.qualityMode = true;
+        made.label = std::string{technique} + " quality";
+        chapter.variants.push_back(std::move(made));
+    }
+    return chapter;
+}
+
 std::vector<Chapter> thesis(const Registry& registry) {
     const auto hard = present({"std", "trapez", "lispsm", "psm", "csm"}, registry);
     const auto warped = present({"trapez", "lispsm", "psm"}, registry);
@@ -121,6 +150,7 @@ std::vector<Chapter> thesis(const Registry& registry) {
              .variants = variantsOf(soft, {1024}, registry),
              .views = {lit("small light", 90, 40, 0.5), lit("large light", 90, 40, 3.0)},
              .motions = {Motion::moving}});
+        if (has(registry.filters, "square")) chapters.push_back(kernels(registry));
     }
     for (Chapter& chapter : chapters) chapter.sizes = {{1024, 1024}};
     return chapters;
