@@ -11,7 +11,8 @@
 namespace gnomon::client {
 namespace {
 
-constexpr int framesEach = 5;
+constexpr int framesEach = 5;       // at the most
+constexpr double enoughMs = 300.0;  // of them: what is that slow need not be known better
 constexpr int samplesOfExtent = 64;
 
 class Calibration {
@@ -99,19 +100,21 @@ void Calibration::measure(Measured& candidate) {
     use(candidate);
     auto& renderer = session_.renderer();
     std::vector<double> times;
-    for (int i = 0; i <= framesEach; ++i) {
+    double sum = 0.0;
+    for (int i = 0; i <= framesEach && sum < enoughMs; ++i) {
         // What moves is drawn anew in every frame: so is a wall's picture, most of the time.
         renderer.forgetShadows();
         const auto begin = Clock::now();
         for (const auto& window : windows_) orThrow(renderer.draw(session_.rendered(window), 0.0));
         renderer.finish();
         // The first one compiles.
-        if (i > 0)
-            times.push_back(
-                std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
+        if (i == 0) continue;
+        times.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
+        sum += times.back();
     }
-    std::nth_element(times.begin(), times.begin() + framesEach / 2, times.end());
-    candidate.ms = times[framesEach / 2];
+    const auto middle = times.begin() + std::ssize(times) / 2;
+    std::nth_element(times.begin(), middle, times.end());
+    candidate.ms = *middle;
     const auto factor = renderer.shadowFactor(session_.rendered(windows_.front()), 0, lightNode_);
     const auto error =
         orThrow(truth::compareFactors(truth_, orThrow(Result<image::Image>{factor})));

@@ -111,6 +111,37 @@ TEST_P(SoftGLTest, MomentsAreDarkLitAndRiseBetween) {
     }
 }
 
+class StretchedGLTest : public RenderTest, public testing::WithParamInterface<const char*> {};
+
+// A strip of ground, five times as long as it is wide, has a map whose texels are; a kernel is a
+// disk all the same.
+TEST_P(StretchedGLTest, MomentsAreAsSoftBothWays) {
+    const auto sun = light<scene::DirectionalLight>(root, {-5.0, 5.0, 0.0}, {0.0, 0.0, 0.0});
+    const auto painted = paint(sun.node, phong(math::vec3{0.8F}));
+    add(painted.node, quad({-8.0F, 0.0F, 1.6F}, {16.0F, 0.0F, 0.0F}, {0.0F, 0.0F, -3.2F}));
+    // Its shadow, at [-2, 2] x [-0.7, 0.7], lies half beside it.
+    add(painted.node, quad({-4.0F, 2.0F, 0.7F}, {4.0F, 0.0F, 0.0F}, {0.0F, 0.0F, -1.4F}));
+    const View eye = view(topView(), 512, 512);
+    {
+        auto e = edit(eye.viewport);
+        e->technique = std::string{"std+"} + GetParam();
+        e->mapSize = 1024;
+        e->softness = 0.2F;
+    }
+    const image::Image found = factor(eye, sun.node);
+    const auto soft = [](int value) { return value > 25 && value < 230; };
+    int along = 0;
+    int across = 0;
+    for (int x = 288; x < 400; ++x) along += soft(pixel(found, x, 256)[0]) ? 1 : 0;
+    for (int y = 256; y < 300; ++y) across += soft(pixel(found, 284, y)[0]) ? 1 : 0;
+    ASSERT_GT(across, 2);
+    // Where the rays slant the kernel is longer on the ground.
+    EXPECT_NEAR(along, std::numbers::sqrt2 * across, 0.3 * along);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, StretchedGLTest, testing::Values("vsm", "evsm", "vsm16", "evsm16"),
+                         [](const auto& info) { return std::string{info.param}; });
+
 INSTANTIATE_TEST_SUITE_P(All, SoftGLTest, testing::Values("std", "trapez", "psm", "lispsm", "csm"),
                          [](const auto& info) { return std::string{info.param}; });
 

@@ -19,7 +19,7 @@ FilterInfo describe_vsm() {
             .source = "Donnelly, Lauritzen 2006",
             .glsl = R"glsl(
 float filteredShadow(int first, ShadowPoint point) {
-    vec4 moments = momentsAround(first, point);
+    vec4 moments = momentsAround(first, point, footprintOf(first, point));
     float lit = litByVariance(point, moments.xy, 1e-6);
     return moments.x == unknown ? 1.0 : lit;
 }

@@ -19,7 +19,7 @@ FilterInfo describe_vsm16() {
             .source = "Donnelly, Lauritzen 2006",
             .glsl = R"glsl(
 float filteredShadow(int first, ShadowPoint point) {
-    vec4 moments = momentsAround(first, point);
+    vec4 moments = momentsAround(first, point, footprintOf(first, point));
     // Half a step of either: of the mean, which is squared, and of a fourth of the square.
     float lit = litByVariance(point, vec2(moments.x - 0.5, 0.25 * moments.y), 1.5 / 65535.0);
     return moments.x == unknown ? 1.0 : lit;

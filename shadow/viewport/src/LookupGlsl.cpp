@@ -190,17 +190,23 @@ ShadowPoint movedPoint(int first, ShadowPoint point, vec2 by) {
     return point;
 }
 
-// How many texels a unit of the light's plane is at a place: the longest way.
-float texelsPerUnit(int first, ShadowPoint point) {
+// What a unit of the light's plane is at a place, each of two ways: a step in texels.
+void texelsAlong(int first, ShadowPoint point, out vec2 a, out vec2 b) {
     vec3 u = shadowMaps[first].alongU.xyz, v = shadowMaps[first].alongV.xyz;
-    vec2 a = u.xy * point.scale, b = v.xy * point.scale;
-    float perUnit = 1.0;
+    a = u.xy * point.scale;
+    b = v.xy * point.scale;
 #ifdef PERSPECTIVE_MAPS
-    a -= point.place.xy * u.z;
-    b -= point.place.xy * v.z;
-    perUnit = max(point.w, 1e-6);
+    float perUnit = 1.0 / max(point.w, 1e-6);
+    a = (a - point.place.xy * u.z) * perUnit;
+    b = (b - point.place.xy * v.z) * perUnit;
 #endif
-    return sqrt(max(dot(a, a), dot(b, b))) / perUnit;
+}
+
+// How many texels it is: the longest way.
+float texelsPerUnit(int first, ShadowPoint point) {
+    vec2 a, b;
+    texelsAlong(first, point, a, b);
+    return sqrt(max(dot(a, a), dot(b, b)));
 }
 
 float filteredShadow(int first, ShadowPoint point);

@@ -61,33 +61,70 @@ std::string_view momentsGlsl() noexcept {
     return R"glsl(
 layout(binding = 9) uniform sampler2DArray shadowMoments;
 
-// Of the kernel, texels: as wide as the finest cells are at the least.
-float kernelRadius(int first, ShadowPoint point) {
-    return max(kernelReach(first, point) * texelsPerUnit(first, point), 2.0);
+// What a kernel, a disk of the light's plane, covers of a map: in warped ones an ellipse.
+struct Footprint {
+    vec2 axis;    // unit, of the longer half axis
+    float major;  // half axes, texels; as wide as the finest cells at the least
+    float minor;
+    float radius;  // of as many round cells side by side along the axis, texels
+    float cells;
+    float apart;   // from one to the next, texels
+};
+
+Footprint footprintOf(int first, ShadowPoint point) {
+    vec2 a, b;
+    texelsAlong(first, point, a, b);
+    // Axes of a disk's image: the eigenvectors of a a' + b b'.
+    float xx = a.x * a.x + b.x * b.x, yy = a.y * a.y + b.y * b.y, xy = a.x * a.y + b.x * b.y;
+    float mean = 0.5 * (xx + yy), half_ = 0.5 * (xx - yy);
+    float apart = sqrt(half_ * half_ + xy * xy);
+    // Twice the angle; of a circle any.
+    float cosine = half_ / max(apart, 1e-20);
+    vec2 axis = vec2(sqrt(0.5 + 0.5 * cosine), sqrt(0.5 - 0.5 * cosine));
+    axis.y = xy < 0.0 ? -axis.y : axis.y;
+    float reach = kernelReach(first, point);
+    float major = max(reach * sqrt(mean + apart), 2.0);
+    float minor = max(reach * sqrt(max(mean - apart, 0.0)), 2.0);
+    // Five cells at the most, beyond that they are wider; one where that is hardly too wide.
+    float radius = max(minor, major / 3.5);
+    bool one = major < 1.3 * radius;
+    float cells = one ? 1.0 : ceil(1.6 * major / radius - 0.64);
+    radius = one ? sqrt(major * radius) : radius;
+    // So that they have the disk's variance along the axis.
+    float step_ = one ? 0.0 : sqrt(3.0 * (major * major - radius * radius) / (cells * cells - 1.0));
+    return Footprint(axis, major, minor, radius, cells, step_);
 }
 
 // Where nothing was drawn, and all is lit.
 const float unknown = 1e30;
 
-// Moments over the kernel: the level whose cells, with what is blurred and interpolated of them, are
-// as wide.
-vec4 momentsAround(int first, ShadowPoint point) {
-    float radius = kernelRadius(first, point);
-    vec2 corner;
-    uint layer = pageOf(first, point, corner);
-#ifdef PAGED_MAPS
-    if (layer == pageMissing) return vec4(unknown);
-#endif
-    vec2 at = point.place.xy - corner;
+// Moments over a kernel: of the level whose cells, with what is blurred and interpolated of them, are
+// as wide, side by side along the longer axis. Source: Joel McCormack et al. Feline: Fast Elliptical
+// Lines for Anisotropic Texture Mapping. 1999.
+vec4 momentsAround(int first, ShadowPoint point, Footprint kernel) {
     vec2 off = abs(point.place.xy - 0.5 * shadowMaps[first].size.x);
     // Beyond its farthest depth, too: what is drawn there is at depth 0, not where it is.
-    if (max(off.x, off.y) > 0.5 * shadowMaps[first].size.x || point.place.z <= 0.0)
-        return vec4(unknown);
-    float cells = float(textureSize(shadowMoments, 0).x);
+    bool outside = max(off.x, off.y) > 0.5 * shadowMaps[first].size.x || point.place.z <= 0.0;
+    float perCell = 0.5 / float(textureSize(shadowMoments, 0).x);
     // Radii, in texels: 2 of the finest, then 8 and doubling.
-    float octaves = log2(radius * 0.5);
-    return textureLod(shadowMoments, vec3(at / (2.0 * cells), float(layer)),
-                      octaves < 2.0 ? octaves * 0.5 : octaves - 1.0);
+    float octaves = log2(kernel.radius * 0.5);
+    float level = octaves < 2.0 ? octaves * 0.5 : octaves - 1.0;
+    vec2 step_ = kernel.axis * kernel.apart;
+    point.place.xy -= 0.5 * (kernel.cells - 1.0) * step_;
+    vec4 sum = vec4(0.0);
+    float i = 0.0;
+    do {
+        vec2 corner;
+        uint layer = pageOf(first, point, corner);
+#ifdef PAGED_MAPS
+        outside = outside || layer == pageMissing;
+        layer = min(layer, 2047u);
+#endif
+        sum += textureLod(shadowMoments, vec3((point.place.xy - corner) * perCell, float(layer)), level);
+        point.place.xy += step_;
+        i += 1.0;
+    } while (i < kernel.cells);
+    return outside ? vec4(unknown) : sum / i;
 }
 
 // What may be lit at the most. Source: Pafnuty Chebyshev, one-sided. A part of it is taken away,
@@ -113,10 +150,13 @@ float litByVariance(ShadowPoint point, vec2 moments, float steps) {
 float litByExponents(int first, ShadowPoint point, float exponent, float steps) {
     float slope = abs(point.slope.x) + abs(point.slope.y);
     float here = point.place.z - 0.5 + slope * slackTexels;
-    vec4 moments = momentsAround(first, point);
+    Footprint kernel = footprintOf(first, point);
+    vec4 moments = momentsAround(first, point, kernel);
     // The mean of what is convex is above what the mean makes of it: for a plane by this much.
-    float across = 0.5 * slope * kernelRadius(first, point);
-    float up = exp(exponent * (here + 0.5 * exponent * across * across));
+    float along = dot(point.slope, kernel.axis) * kernel.major;
+    float across = dot(point.slope, vec2(-kernel.axis.y, kernel.axis.x)) * kernel.minor;
+    float square = 0.25 * (along * along + across * across);
+    float up = exp(exponent * (here + 0.5 * exponent * square));
     float down = -exp(-exponent * here);
     // What a texel's slope and rounding make of the warped depths.
     vec2 least = exponent * (slope + steps) * vec2(up, down);
