@@ -53,7 +53,7 @@ protected:
             const double right = formula(place);
             EXPECT_NEAR(found[x], right, 0.03) << "at " << place << " m";
             const double step = std::abs(right - formula(placeOf(x - 1)));
-            EXPECT_LE(std::abs(found[x] - found[x - 1]), step + 2.5 / 255.0)
+            EXPECT_LE(std::abs(found[x] - found[x - 1]), step + 2.0 / 255.0)
                 << "a band at " << place << " m";
         }
     }

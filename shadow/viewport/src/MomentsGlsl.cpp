@@ -78,9 +78,9 @@ Footprint footprintOf(int first, ShadowPoint point) {
     float xx = a.x * a.x + b.x * b.x, yy = a.y * a.y + b.y * b.y, xy = a.x * a.y + b.x * b.y;
     float mean = 0.5 * (xx + yy), half_ = 0.5 * (xx - yy);
     float apart = sqrt(half_ * half_ + xy * xy);
-    // Twice the angle; of a circle any.
-    float cosine = half_ / max(apart, 1e-20);
-    vec2 axis = vec2(sqrt(0.5 + 0.5 * cosine), sqrt(0.5 - 0.5 * cosine));
+    // The cosine is of twice their angle; of a circle any.
+    float cosine = clamp(half_ / max(apart, 1e-20), -1.0, 1.0);
+    vec2 axis = sqrt(vec2(0.5) + vec2(0.5, -0.5) * cosine);
     axis.y = xy < 0.0 ? -axis.y : axis.y;
     float reach = kernelReach(first, point);
     float major = max(reach * sqrt(mean + apart), 2.0);
@@ -118,7 +118,6 @@ vec4 momentsAround(int first, ShadowPoint point, Footprint kernel) {
         uint layer = pageOf(first, point, corner);
 #ifdef PAGED_MAPS
         outside = outside || layer == pageMissing;
-        layer = min(layer, 2047u);
 #endif
         sum += textureLod(shadowMoments, vec3((point.place.xy - corner) * perCell, float(layer)), level);
         point.place.xy += step_;
