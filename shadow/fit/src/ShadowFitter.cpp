@@ -329,7 +329,7 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group,
     e->reach = static_cast<float>(reach);
     e->kernelWidth = plan.viewport.kernelWidth;
     e->kernelSamples = plan.viewport.kernelSamples;
-    e->quality = plan.viewport.qualityMode ? 6.0F : 1.0F;
+    e->quality = plan.viewport.qualityMode ? 8.0F : 1.0F;
     e->degenerate = made.degenerate || !placed;
     e->clipFromWorld.assign(std::move(maps));
 }

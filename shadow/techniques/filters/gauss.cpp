@@ -15,7 +15,7 @@ float kernelTexels = 0.0;
 float filteredShadow(int first, ShadowPoint point) {
     float texels = kernelReach(first, point) * texelsPerUnit(first, point);
     kernelTexels = max(kernelTexels, texels * shadowMaps[first].kernel.w);
-    return pageCompare(first, point, 0.0);
+    return pageCompare(first, point);
 }
 )glsl",
             .onScreen = true};

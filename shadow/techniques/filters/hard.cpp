@@ -6,7 +6,7 @@ namespace gnomon::shadow {
 
 FilterInfo describe_hard() {
     return {.name = "hard", .source = "Reeves, Salesin, Cook 1987", .glsl = R"glsl(
-float filteredShadow(int first, ShadowPoint point) { return pageCompare(first, point, 0.0); }
+float filteredShadow(int first, ShadowPoint point) { return pageCompare(first, point); }
 )glsl"};
 }
 

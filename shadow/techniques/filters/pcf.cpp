@@ -15,7 +15,7 @@ float filteredShadow(int first, ShadowPoint point) {
     float texels = radius * texelsPerUnit(first, point);
     Around all = around(first, point, texels);
     float count = all.lit || all.shadowed ? 0.0 : samplesOf(first, 2.0 * texels);
-    float lit = diskShadow(first, point, radius, vec2(1.0, 0.0), count, 0.0, 0.0);
+    float lit = diskShadow(first, point, radius, vec2(1.0, 0.0), count);
     return all.lit ? 1.0 : all.shadowed ? 0.0 : lit;
 }
 )glsl",

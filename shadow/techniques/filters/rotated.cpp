@@ -20,7 +20,7 @@ float filteredShadow(int first, ShadowPoint point) {
     float count = all.lit || all.shadowed ? 0.0 : clamp(ceil(0.5 * texels), 4.0, 16.0) * quality;
     float noise = fract(52.9829189 * fract(dot(floor(point.place.xy), vec2(0.06711056, 0.00583715))));
     vec2 turn = vec2(cos(6.2831853 * noise), sin(6.2831853 * noise));
-    float lit = diskShadow(first, point, radius, turn, texels < 0.5 ? min(count, 1.0) : count, 0.0, 0.0);
+    float lit = diskShadow(first, point, radius, turn, texels < 0.5 ? min(count, 1.0) : count);
     return all.lit ? 1.0 : all.shadowed ? 0.0 : lit;
 }
 )glsl",

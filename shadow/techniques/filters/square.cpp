@@ -20,7 +20,7 @@ float filteredShadow(int first, ShadowPoint point) {
         vec2 by = (vec2(mod(i, row), floor(i / row)) + 0.5) * between - 0.5 * width;
         ShadowPoint at = point;
         at.place += vec3(by, dot(point.slope, by));
-        lit += pageCompare(first, at, 0.0);
+        lit += pageCompare(first, at);
         i += 1.0;
     } while (i < count);
     return all.lit ? 1.0 : all.shadowed ? 0.0 : lit / i;

@@ -158,21 +158,35 @@ vec4 planeAt(ShadowPoint point, vec2 share) {
     return vec4(here + slope.y, here + slope.x + slope.y, here + slope.x, here);
 }
 
+// Of four texels, as gathered, what is between them.
+float interpolated(vec4 texels, vec2 share) {
+    vec2 row = mix(texels.wx, texels.zy, share.x);
+    return mix(row.x, row.y, share.y);
+}
+
 // Comparison at a place in a map, interpolated between the four nearest texels.
 // What is not nearer to the light than the place itself cannot shadow it: where surfaces meet, a
-// texel away, the other one may be above the receiver's plane.
-//   least  depth times w that hides nothing besides; 0 at the least: a receiver beyond the map is never
-//          darker than what was not drawn
-float pageCompare(int first, ShadowPoint point, float least) {
+// texel away, the other one may be above the receiver's plane. And a receiver beyond the map is never
+// darker than what was not drawn.
+float pageCompare(int first, ShadowPoint point) {
+    vec2 share;
+    vec4 casters = texelsAt(first, point, share);
+    float least = max(point.place.z, 0.0);
+    return interpolated(vec4(greaterThanEqual(max(planeAt(point, share), least), casters)), share);
+}
+
+// The same of those casters whose depth times w is within a range.
+float pageCompareWithin(int first, ShadowPoint point, float least, float most) {
     vec2 share;
     vec4 casters = texelsAt(first, point, share);
 #ifdef PERSPECTIVE_MAPS
-    least /= max(point.w, 1e-6);
+    float perW = 1.0 / max(point.w, 1e-6);
+    least *= perW;
+    most *= perW;
 #endif
     least = max(max(least, point.place.z), 0.0);
     vec4 lit = vec4(greaterThanEqual(max(planeAt(point, share), least), casters));
-    vec2 row = mix(lit.wx, lit.zy, share.x);
-    return mix(row.x, row.y, share.y);
+    return interpolated(max(lit, vec4(greaterThan(casters, vec4(most)))), share);
 }
 
 // The point of the receiver's plane that is seen elsewhere. @param by  units of the light's plane

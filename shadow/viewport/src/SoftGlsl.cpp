@@ -141,17 +141,14 @@ float samplesOf(int first, float texelsAcross) {
 // The share of a disk that is lit. Without samples as with one: software GL executes what is written
 // for all pixels, whatever they branch to, so that each lookup is written once and skipped by its
 // loop's end alone.
-//   radius       in units of the light's plane
-//   turn         cosine and sine of the angle that the disk is turned by
-//   least, rise  depth times w that hides nothing, of the middle and a unit away from it
-float diskShadow(int first, ShadowPoint point, float radius, vec2 turn, float count, float least,
-                 float rise) {
+//   radius  in units of the light's plane
+//   turn    cosine and sine of the angle that the disk is turned by
+float diskShadow(int first, ShadowPoint point, float radius, vec2 turn, float count) {
     float share = count > 1.0 ? radius * inversesqrt(count) : 0.0;
     float lit = 0.0;
     float i = 0.5;
     do {
-        float away = sqrt(i) * share;
-        lit += pageCompare(first, movedPoint(first, point, turn * away), least + away * rise);
+        lit += pageCompare(first, movedPoint(first, point, turn * (sqrt(i) * share)));
         turn = goldenTurn * turn;
         i += 1.0;
     } while (i < count);
