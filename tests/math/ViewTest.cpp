@@ -136,6 +136,16 @@ TEST(View, TilesOfTilesArePartsOfTheWhole) {
     EXPECT_EQ(tileFromWhole(inner) * tileFromWhole(outer), tileFromWhole(both));
 }
 
+TEST(View, AWidenedViewSeesTheSameInItsMiddle) {
+    const View view{.clipFromEye = frustum(-0.75, 1.25, -0.75, 0.25, 0.25, 100.0)};
+    const View wide = widened(view, {0.25, 0.5});
+    const dvec4 p = view.clipFromWorld() * dvec4{0.3, -0.2, -4.0, 1.0};
+    const dvec4 q = wide.clipFromWorld() * dvec4{0.3, -0.2, -4.0, 1.0};
+    EXPECT_NEAR(q.x / q.w * 1.5, p.x / p.w, 1e-14);
+    EXPECT_NEAR(q.y / q.w * 2.0, p.y / p.w, 1e-14);
+    EXPECT_EQ(q.z, p.z);
+}
+
 TEST(View, LookAtIsRigidAndLooksThere) {
     const dmat4 view = lookAt({1.0, 2.0, 3.0}, {4.0, 2.0, -1.0}, {0.0, 1.0, 0.0});
     expectNear(dvec3{view * dvec4{4.0, 2.0, -1.0, 1.0}}, {0.0, 0.0, -5.0});

@@ -45,16 +45,19 @@ protected:
         return 0.5 + (u * std::sqrt(1.0 - u * u) + std::asin(u)) / std::numbers::pi;
     }
     /// From half a metre beside the slab's own edge to where nothing changes any more.
+    /// @param off  from the formula, at most
+    /// @param step  more than the formula's from a pixel to the next, at most: two steps of a byte,
+    ///              and half of one that bytes make of the difference
     template <class Formula>
-    static void expect(const std::vector<double>& found, Formula formula) {
+    static void expect(const std::vector<double>& found, Formula formula, double off = 0.03,
+                       double step = 2.5 / 255.0) {
         for (std::size_t x = 1; x < found.size(); ++x) {
             const double place = placeOf(x);
             if (place < -2.5 || place > 4.0) continue;
             const double right = formula(place);
-            EXPECT_NEAR(found[x], right, 0.03) << "at " << place << " m";
-            const double step = std::abs(right - formula(placeOf(x - 1)));
-            // Two steps of a byte; half of one is what bytes make of the difference.
-            EXPECT_LE(std::abs(found[x] - found[x - 1]), step + 2.5 / 255.0)
+            EXPECT_NEAR(found[x], right, off) << "at " << place << " m";
+            const double own = std::abs(right - formula(placeOf(x - 1)));
+            EXPECT_LE(std::abs(found[x] - found[x - 1]), own + step)
                 << "a band at " << place << " m";
         }
     }
@@ -138,6 +141,36 @@ TEST_P(SoftGLTest, MomentsAreDarkLitAndRiseBetween) {
             EXPECT_LE(found[x], found[x - 1] + 0.2) << filter << " at " << place;
         }
     }
+}
+
+/// What technique `ray` finds, without a map.
+class RaySoftGLTest : public SoftGLTest {};
+
+TEST_F(RaySoftGLTest, TheSunsPenumbraIsAsWideAsItsDiskAndWithoutBands) {
+    const double angle = 2.0 * std::numbers::pi / 180.0;
+    const auto formula = [&](double x) {
+        const double beside = std::atan2(height, x - edge) - std::numbers::pi / 4.0;
+        return shareOfDisk(-std::sin(beside) / std::sin(angle));
+    };
+    // 64 rays know a share no better than their places do (Sunflower's test), in steps of a ray.
+    expect(row("ray", angle), formula, 0.05, 3.0 / 64.0);
+}
+
+TEST_F(RaySoftGLTest, WhatIsThinnerThanItsPenumbraDarkensByItsWidth) {
+    // A bar across the row, which a sixth of the rays to a pixel below it meet at most.
+    constexpr float width = 0.05F;
+    add(root,
+        quad({0.0F, static_cast<float>(height), 40.0F}, {width, 0.0F, 0.0F}, {0.0F, 0.0F, -80.0F}));
+    const auto found = row("ray", 2.0 * std::numbers::pi / 180.0);
+    double dark = 0.0;
+    double darkest = 1.0;
+    for (std::size_t x = 0; x < found.size(); ++x) {
+        if (placeOf(x) < 3.0 || placeOf(x) > 5.0) continue;
+        dark += (1.0 - found[x]) / 32.0;
+        darkest = std::min(darkest, found[x]);
+    }
+    EXPECT_NEAR(dark, width, 0.1 * width) << "as if every part of the sun cast a shadow as wide";
+    EXPECT_GT(darkest, 0.8);
 }
 
 class StretchedGLTest : public RenderTest, public testing::WithParamInterface<const char*> {};

@@ -234,6 +234,24 @@ TEST_F(TileGLTest, WideKernelsOnTheScreenGoOnInTheNextTile) {
     EXPECT_GT(colors(both.whole), 500U);
 }
 
+// What is traced of a pixel depends on its neighbours: those in the next tile, too.
+TEST_F(TileGLTest, TracedPenumbraeGoOnInTheNextTile) {
+    technique = "ray";
+    const auto sun = light<scene::DirectionalLight>(root, {-2.0, 3.0, 1.0}, {0.0, 0.0, 0.0});
+    const auto spot = light<scene::SpotLight>(sun.node, {3.0, 7.0, 4.0}, {0.0, 0.0, 0.0});
+    {
+        auto e = edit(sun.core);
+        e->intensity = 0.5F;
+        e->angle = 0.05F;
+    }
+    edit(spot.core)->radius = 0.5F;
+    plaza(spot.node);
+    const auto both =
+        render(perspectiveView({4.0, 3.0, 9.0}, {0.0, 0.5, 0.0}), 8, 8, {32, 32}, gradient(), 16);
+    expectEqual(both);
+    EXPECT_GT(colors(both.whole), 500U);
+}
+
 TEST_F(TileGLTest, TilesWithMultisampling) {
     const auto sun = light<scene::DirectionalLight>(root, {-2.0, 3.0, 1.0}, {0.0, 0.0, 0.0});
     plaza(sun.node);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace gnomon::truth {
 namespace {
@@ -77,6 +78,32 @@ TEST(LightSampler, OutsideItsConeASpotDoesNotShine) {
     EXPECT_FALSE(sampler.shinesAt({edge * 1.001, 0.0, 0.0}));
     EXPECT_FALSE(sampler.shinesAt({0.0, 5.0, 0.0})) << "behind it";
     EXPECT_FALSE(sampler.shinesAt({0.0, -6.5, 0.0})) << "beyond its range";
+}
+
+TEST(LightSampler, TheRimOfTheDiskIsTheRimOfTheSun) {
+    const LightShape sun{.direction = glm::normalize(dvec3{1.0, -2.0, 0.5}), .extent = 0.1};
+    const LightSampler sampler{sun, dvec3{0.0}};
+    for (const dvec2& rim : {dvec2{1.0, 0.0}, dvec2{0.0, -1.0}, dvec2{0.6, 0.8}})
+        EXPECT_NEAR(glm::dot(sampler.toward(dvec3{0.0}, rim).direction, -sun.direction),
+                    std::cos(0.1), 1e-12);
+    EXPECT_LT(glm::length(sampler.toward(dvec3{0.0}, dvec2{0.0}).direction + sun.direction), 1e-12);
+}
+
+TEST(Sunflower, HasOnEachSideOfAnyLineItsShareOfTheDisk) {
+    constexpr std::uint32_t count = 64;
+    for (int turn = 0; turn < 180; ++turn) {
+        const double angle = turn * std::numbers::pi / 180.0;
+        for (double t = -0.98; t < 1.0; t += 0.02) {
+            int below = 0;
+            for (std::uint32_t i = 0; i < count; ++i)
+                below += glm::dot(sunflower(i, count), dvec2{std::cos(angle), std::sin(angle)}) < t
+                             ? 1
+                             : 0;
+            const double share =
+                0.5 + (t * std::sqrt(1.0 - t * t) + std::asin(t)) / std::numbers::pi;
+            EXPECT_NEAR(below / static_cast<double>(count), share, 0.05) << turn << " " << t;
+        }
+    }
 }
 
 TEST(Stratified, FirstPowersOfTwoFillEveryElementaryInterval) {

@@ -108,6 +108,15 @@ dmat4 tileFromWhole(const Rect& tile) noexcept {
     return clip;
 }
 
+View widened(const View& view, const dvec2& share) noexcept {
+    return {.clipFromEye = tileFromWhole({.left = -share.x,
+                                          .bottom = -share.y,
+                                          .width = 1.0 + 2.0 * share.x,
+                                          .height = 1.0 + 2.0 * share.y}) *
+                           view.clipFromEye,
+            .eyeFromWorld = view.eyeFromWorld};
+}
+
 View offAxis(const dvec3& eye, const ScreenCorners& screen, double near, double far) noexcept {
     const dvec3 across = screen.lowerRight - screen.lowerLeft;
     const dvec3 upward = screen.upperLeft - screen.lowerLeft;

@@ -67,6 +67,11 @@ struct Renderer::Parts {
                     .eyeFromWorld = view.eyeFromWorld,
                     .eyeWorld = view.eyeWorld()};
         }
+        /// With as many pixels more on each side.
+        math::View widened(int margin) const {
+            return math::widened(camera.view, math::dvec2{static_cast<double>(margin)} /
+                                                  math::dvec2{pixels.width, pixels.height});
+        }
         glm::ivec2 imagesAt() const {
             return onScreen ? glm::ivec2{ScreenBlur::margin} - glm::ivec2{pixels.x, pixels.y}
                             : glm::ivec2{0};
@@ -239,9 +244,7 @@ Result<Renderer::Parts::Seen> Renderer::Parts::look(const scene::Window& window,
     const shadow::FilterInfo* filter =
         seen.states.empty() ? nullptr : shadow::findFilter(seen.states.front()->filter.get());
     seen.onScreen = filter != nullptr && filter->onScreen;
-    seen.shadowed = seen.onScreen ? ScreenBlur::widened(seen.camera.view,
-                                                        {seen.pixels.width, seen.pixels.height})
-                                  : seen.camera.view;
+    seen.shadowed = seen.onScreen ? seen.widened(ScreenBlur::margin) : seen.camera.view;
     seen.origin = seen.states.empty() ? originFor(camera->view) : seen.states.front()->origin.get();
     return seen;
 }
@@ -449,7 +452,7 @@ void Renderer::Parts::trace(const Seen& seen, const Lights::Uploaded& lit, RaySh
         rays->update(seen.drawer->flat(), seen.origin);
     }
     rays->moveTo(seen.origin);
-    const SceneDrawer::ColorPass depth = seen.pass();
+    const SceneDrawer::ColorPass depth = seen.passOf(seen.widened(RayShadows::margin));
     const RayShadows::Pass pass{.clipFromWorld = depth.clipFromWorld,
                                 .pixels = seen.pixels,
                                 .size = size,

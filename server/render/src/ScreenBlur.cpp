@@ -21,16 +21,6 @@ ScreenBlur::ScreenBlur(const gl::Api& gl, Programs& programs)
     one_.label("blurred factors");
 }
 
-math::View ScreenBlur::widened(const math::View& view, const glm::ivec2& pixels) {
-    const math::dvec2 share = math::dvec2{margin} / math::dvec2{pixels};
-    return {.clipFromEye = math::tileFromWhole({.left = -share.x,
-                                                .bottom = -share.y,
-                                                .width = 1.0 + 2.0 * share.x,
-                                                .height = 1.0 + 2.0 * share.y}) *
-                           view.clipFromEye,
-            .eyeFromWorld = view.eyeFromWorld};
-}
-
 gl::Texture ScreenBlur::texture(GLenum target, GLenum format, const glm::ivec2& size, int layers,
                                 const char* label) const {
     gl::Texture made{gl_, target};

@@ -24,9 +24,6 @@ public:
 
     ScreenBlur(const gl::Api& gl, Programs& programs);
 
-    /// The view with its margin. @param pixels  without
-    static math::View widened(const math::View& view, const glm::ivec2& pixels);
-
     struct Pass {
         math::dmat4 clipFromEye{1.0};  ///< widened
         math::dmat4 eyeFromWorld{1.0};

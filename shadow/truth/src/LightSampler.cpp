@@ -26,9 +26,8 @@ dvec2 disk(const dvec2& u) {
 }
 
 /// A direction within a cone around an axis, uniform by solid angle.
-dvec3 inCone(const dvec3& axis, const dvec3& u, const dvec3& v, double cosine, const dvec2& at) {
+dvec3 inCone(const dvec3& axis, const dvec3& u, const dvec3& v, double cosine, const dvec2& d) {
     // Areas of the unit disk are shares of the cone's solid angle.
-    const dvec2 d = disk(at);
     const double share = std::min(glm::dot(d, d), 1.0);
     const double c = 1.0 - share * (1.0 - cosine);
     const double s = std::sqrt(std::max(0.0, 1.0 - c * c));
@@ -37,7 +36,7 @@ dvec3 inCone(const dvec3& axis, const dvec3& u, const dvec3& v, double cosine, c
     return axis * c + (u * d.x + v * d.y) * (s / length);
 }
 
-LightSampler::Ray toward(const dvec3& from, const dvec3& target) {
+LightSampler::Ray between(const dvec3& from, const dvec3& target) {
     const dvec3 way = target - from;
     const double reach = glm::length(way);
     // A point in the light itself is lit: any direction, no way.
@@ -66,22 +65,26 @@ LightSampler::LightSampler(const shadow_fit::LightShape& light, const dvec3& ori
 LightSampler::Ray LightSampler::centre(const dvec3& from) const {
     if (light_.kind == LightKind::directional)
         return {.direction = -light_.direction, .reach = std::numeric_limits<double>::infinity()};
-    return toward(from, position_);
+    return between(from, position_);
 }
 
 LightSampler::Ray LightSampler::sample(const dvec3& from, dvec2 at) const {
+    return toward(from, disk(at));
+}
+
+LightSampler::Ray LightSampler::toward(const dvec3& from, dvec2 at) const {
     switch (light_.kind) {
         case LightKind::directional:
             return {.direction = inCone(-light_.direction, u_, v_, cosineOfExtent_, at),
                     .reach = std::numeric_limits<double>::infinity()};
         case LightKind::spot: {
-            const dvec2 d = disk(at) * light_.extent;
-            return toward(from, position_ + u_ * d.x + v_ * d.y);
+            const dvec2 d = at * light_.extent;
+            return between(from, position_ + u_ * d.x + v_ * d.y);
         }
         case LightKind::point:
             break;
     }
-    const Ray middle = toward(from, position_);
+    const Ray middle = between(from, position_);
     if (middle.reach <= light_.extent) return middle;  // inside the light
     const double sine = light_.extent / middle.reach;
     const double cosine = std::sqrt(1.0 - sine * sine);
@@ -117,6 +120,12 @@ dvec2 stratified(std::uint32_t i, std::uint32_t pixel) noexcept {
     x ^= scramble;
     y ^= hashed(scramble ^ 0x9e3779b9U);
     return {static_cast<double>(x) * 0x1p-32, static_cast<double>(y) * 0x1p-32};
+}
+
+dvec2 sunflower(std::uint32_t i, std::uint32_t n) noexcept {
+    const double goldenAngle = std::numbers::pi * (3.0 - std::sqrt(5.0));
+    const double radius = std::sqrt((i + 0.5) / n);
+    return {radius * std::cos(i * goldenAngle), radius * std::sin(i * goldenAngle)};
 }
 
 }  // namespace gnomon::truth

@@ -48,6 +48,9 @@ dmat4 lookAt(const dvec3& eye, const dvec3& centre, const dvec3& up) noexcept;
 /// Source: OpenSG's TileCameraDecorator.
 dmat4 tileFromWhole(const Rect& tile) noexcept;
 
+/// A view that sees more on each side, by shares of its width and height.
+View widened(const View& view, const dvec2& share) noexcept;
+
 /// A flat screen by three corners of its lit area, in metres.
 struct ScreenCorners {
     dvec3 lowerLeft{-1.0, -1.0, 0.0};

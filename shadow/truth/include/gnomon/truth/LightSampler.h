@@ -24,6 +24,8 @@ public:
     /// sphere by the solid angle it is seen under.
     /// @param u  uniform in [0, 1)^2
     Ray sample(const math::dvec3& from, math::dvec2 u) const;
+    /// The same toward a place in the unit disk, whose areas are the light's.
+    Ray toward(const math::dvec3& from, math::dvec2 disk) const;
     /// False outside a spot's cone, seen from its centre: no light arrives there at all.
     bool shinesAt(const math::dvec3& position) const;
 
@@ -41,5 +43,10 @@ private:
 /// interval. Source: Ilya Sobol. 1967; scrambling: Thomas Kollig, Alexander Keller. Efficient
 /// Multidimensional Sampling. 2002.
 math::dvec2 stratified(std::uint32_t i, std::uint32_t pixel) noexcept;
+
+/// The i-th of n places in the unit disk that are spread evenly over it: seen from any side no line
+/// meets many, so that shadows of straight edges have few steps. No prefix is even by itself.
+/// Source: Helmut Vogel. A Better Way to Construct the Sunflower Head. 1979.
+math::dvec2 sunflower(std::uint32_t i, std::uint32_t n) noexcept;
 
 }  // namespace gnomon::truth
