@@ -134,6 +134,25 @@ TEST_F(MaterialGLTest, AMaskedCasterCastsItsMask) {
     EXPECT_EQ(at(factor(top, sun.node), -2.0, 0.0)[0], 0) << "without the mask all of it shadows";
 }
 
+TEST_F(MaterialGLTest, ATexturedSurfaceIsShadowedAsAPlainOne) {
+    const auto sun = light<scene::DirectionalLight>(root, {-1.0, 2.0, 0.0}, {0.0, 0.0, 0.0});
+    edit(sun.core)->angle = 0.02F;
+    const auto& painted = phong(vec3{0.8F});
+    ground(sun.node, painted);
+    caster(sun.node);
+    const View top = view(topView(), 128, 128);
+    const auto& white = texture(1, 1, {255, 255, 255, 255});
+    for (const char* technique : {"std", "std+ppcf", "std+vsm", "std+gauss", "ray"}) {
+        edit(top.viewport)->technique = technique;
+        edit(painted)->diffuseMap = field::Ref<scene::Texture>{};
+        const auto plain = factor(top, sun.node);
+        const auto shown = picture(top);
+        edit(painted)->diffuseMap = white;
+        EXPECT_EQ(factor(top, sun.node).pixels, plain.pixels) << technique;
+        EXPECT_EQ(picture(top).pixels, shown.pixels) << technique;
+    }
+}
+
 TEST_F(MaterialGLTest, ABlendedSurfaceCastsNoneAndIsBlended) {
     const auto sun = light<scene::DirectionalLight>(root, {-1.0, 2.0, 0.0}, {0.0, 0.0, 0.0});
     const auto& glass = phong(vec3{0.0F});
