@@ -23,7 +23,7 @@ struct Sums {
 
 std::uint8_t toByte(double factor) {
     const double byte = std::floor(factor * 255.0 + 0.5);
-    return byte == noSurface ? 127 : static_cast<std::uint8_t>(byte);
+    return static_cast<std::uint8_t>(byte == noSurface ? 127 : byte);
 }
 
 /// Rays through pixel centres.
