@@ -298,7 +298,7 @@ void ShadowFitter::fit(field::Aspect& session, const Group& group,
     const double reach = !placed ? 0.0
                                  : lookupReach(plan.filter, light, softness,
                                                0.5 * plan.viewport.kernelWidth / plan.mapSize,
-                                               receivers_.points(), plan.seen.flat.bounds());
+                                               receivers_.points(), boxes.tree);
     if (plan.info.shadowedOnly)
         receivers_.dropUnshadowed(light, boxes.tree, reach);
     else if (!receivers_.mayBeShadowed(light, boxes.tree, reach))

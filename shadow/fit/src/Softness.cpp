@@ -1,3 +1,4 @@
+#include <gnomon/math/ConvexBody.h>
 #include <gnomon/shadow_fit/Softness.h>
 
 #include <algorithm>
@@ -26,6 +27,45 @@ constexpr std::array<FilterUse, 11> uses{{{"hard", Spread::none},
 /// A lookup that goes further than this many tangents around would see half the world.
 constexpr double mostTangents = 2.0;
 
+/// How near to a light, along its axis, something comes that may shadow the receivers from any part
+/// of it.
+double nearestCaster(const LightPlane& plane, const LightShape& light,
+                     std::span<const math::dvec3> receivers, const math::BoxTree& casters,
+                     const LightPlane::Depth& depth) {
+    const auto hull = outlineOf(plane, light, receivers, 0.0).hull;
+    if (hull.empty()) return depth.nearest;
+    math::dvec2 low = hull.front();
+    math::dvec2 high = low;
+    for (const math::dvec2& p : hull) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    std::array sides{plane.through({1.0, 0.0, -low.x}), plane.through({-1.0, 0.0, high.x}),
+                     plane.through({0.0, 1.0, -low.y}), plane.through({0.0, -1.0, high.y})};
+    // From a receiver to the light's rim a ray leaves them by the light's radius at the most.
+    for (math::Plane& side : sides) side.offset += extentOf(light);
+    const auto begins = [&](const math::Box& box) {
+        double near = depth.farthest;
+        for (int i = 0; i < 8; ++i) near = std::min(near, plane.at(box.corner(i)).z);
+        return std::max(near, depth.nearest);
+    };
+    double nearest = depth.farthest;
+    math::ConvexBody body;
+    // Of a large box, the ground's, the part between the light and the receivers alone.
+    const auto between = [&](const math::Box& box) {
+        if (begins(box) >= nearest) return nearest;
+        body.assign(box);
+        for (const math::Plane& side : sides) body.clip(side);
+        double near = nearest;
+        for (const math::dvec3& p : body.points()) near = std::min(near, plane.at(p).z);
+        return std::max(near, depth.nearest);
+    };
+    casters.cover(
+        sides, [&](const math::Box& box) { return begins(box) >= nearest; },
+        [&](const math::Box& box, bool) { nearest = between(box); });
+    return nearest;
+}
+
 }  // namespace
 
 std::span<const FilterUse> filterUses() noexcept { return uses; }
@@ -49,7 +89,7 @@ double softnessOf(const LightShape& light) noexcept {
 }
 
 double lookupReach(const FilterUse& filter, const LightShape& light, double softness, double share,
-                   std::span<const math::dvec3> receivers, const math::Box& casters) {
+                   std::span<const math::dvec3> receivers, const math::BoxTree& casters) {
     const Spread spread = filter.spread;
     if (spread == Spread::none || receivers.empty()) return 0.0;
     softness *= filter.tails;
@@ -60,12 +100,13 @@ double lookupReach(const FilterUse& filter, const LightShape& light, double soft
         for (const math::dvec2& p : hull) seen.add(math::dvec3{p, 0.0});
         return hull.empty() ? 0.0 : 1.5 * share * glm::length(seen.size());
     }
-    const auto depth = plane.depthOf(receivers, casters);
+    const math::Box bounds = casters.bounds();
+    const auto depth = plane.depthOf(receivers, bounds);
     if (plane.parallel()) {
         if (spread == Spread::fixed) return softness;
         // Nothing casts from farther away than a ray is in the bounds.
         double away = depth.farthest - depth.nearest;
-        const math::dvec3 size = casters.empty() ? math::dvec3{0.0} : casters.size();
+        const math::dvec3 size = bounds.empty() ? math::dvec3{0.0} : bounds.size();
         for (int i = 0; i < 3; ++i) {
             const double slope = std::abs(light.direction[i]);
             if (slope * away > size[i]) away = size[i] / slope;
@@ -77,11 +118,11 @@ double lookupReach(const FilterUse& filter, const LightShape& light, double soft
     nearest = std::max(nearest, depth.nearest);
     if (spread == Spread::fixed) return std::min(softness / nearest, mostTangents);
     // What is nearer than the map's near side is drawn there.
-    double caster = depth.farthest;
-    if (!casters.empty())
-        for (int i = 0; i < 8; ++i) caster = std::min(caster, plane.at(casters.corner(i)).z);
-    caster = std::clamp(caster, depth.nearest, depth.farthest);
-    return std::min(extentOf(light) * (1.0 / caster - 1.0 / depth.farthest), mostTangents);
+    const double caster = nearestCaster(plane, light, receivers, casters, depth);
+    const double most = extentOf(light) * (1.0 / caster - 1.0 / depth.farthest);
+    // In steps: a map does not change whenever something moves a little.
+    return most > 0.0 ? std::min(std::exp2(std::ceil(8.0 * std::log2(most)) / 8.0), mostTangents)
+                      : 0.0;
 }
 
 }  // namespace gnomon::shadow_fit

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gnomon/math/BoxTree.h>
 #include <gnomon/shadow_fit/Fit.h>
 
 #include <span>
@@ -38,8 +39,8 @@ double extentOf(const LightShape& light) noexcept;
 /// @param softness   metres
 /// @param share      half a kernel's width, a share of the map's side
 /// @param receivers  of which some must be in front of the light
-/// @param casters    bounds of what casts
+/// @param casters    boxes of what casts
 double lookupReach(const FilterUse& filter, const LightShape& light, double softness, double share,
-                   std::span<const math::dvec3> receivers, const math::Box& casters);
+                   std::span<const math::dvec3> receivers, const math::BoxTree& casters);
 
 }  // namespace gnomon::shadow_fit
