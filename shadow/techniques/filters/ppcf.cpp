@@ -5,8 +5,8 @@
 // Where we depart from it: everything is measured across the light's rays, in metres or tangents,
 // so that warped maps and cascades have the penumbra they should have; only what is within the cone
 // from the place to the light counts as a blocker; comparisons are with the receiver's plane; and
-// where what blocks is at heights that differ widely, a wall above a relief, each has a kernel of its
-// own.
+// where what blocks is at heights that differ widely, a wall above a relief, each has a kernel of
+// its own.
 #include <gnomon/shadow/Filter.h>
 
 namespace gnomon::shadow {
