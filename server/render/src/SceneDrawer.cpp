@@ -307,8 +307,8 @@ PassStatistics SceneDrawer::drawUnblurred(const ColorPass& pass, int firstLight,
               Variant variant{
                   .pass = Variant::Pass::unblurred,
                   .format = masked ? state.format & (hasTexCoords | hasColors) : 0U,
-                  .features = masked ? state.features & (Variant::alphaMask | Variant::diffuseMap)
-                                     : 0U,
+                  .features =
+                      masked ? state.features & (Variant::alphaMask | Variant::diffuseMap) : 0U,
                   .firstLight = firstLight,
                   .lightCount = lightCount};
               useMaps(variant, pass.maps, firstLight + lightCount);
