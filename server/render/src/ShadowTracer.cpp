@@ -116,7 +116,7 @@ public:
           size_{size},
           places_{places},
           images_{images} {
-        if (light.kind != shadow_fit::LightKind::directional) return;
+        if (!soft() || light.kind != shadow_fit::LightKind::directional) return;
         for (const dvec2& place : places) parallel_.push_back(sampler_.toward(dvec3{0.0}, place));
     }
 
@@ -290,6 +290,8 @@ std::span<const std::uint8_t> ShadowTracer::trace(const truth::RayScene& scene,
     onThreads([&](std::atomic<int>& next) {
         each(next, 1, [](const Tracer& tracer, int y) { tracer.probe(y); });
     });
+    if (std::none_of(tracers.begin(), tracers.end(), [](const Tracer& t) { return t.soft(); }))
+        return factors_;
     onThreads([&](std::atomic<int>& next) {
         std::vector<std::uint8_t> near;
         each(next, bandRows, [&](const Tracer& tracer, int y) {
