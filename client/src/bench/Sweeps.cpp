@@ -107,15 +107,13 @@ Chapter kernels(const Registry& registry) {
         made.label = fmt::format("std+square {0}x{0} of {1} a row", width, samples);
         chapter.variants.push_back(std::move(made));
     }
-    for (const char* technique :
-         {"std+pcf", "std+rotated", "std+hardware", "std+gauss", "std+ppcf"}) {
-        if (present({technique}, registry).empty()) continue;
+    for (const auto& technique :
+         present({"std+pcf", "std+rotated", "std+hardware", "std+gauss", "std+ppcf"}, registry))
         chapter.variants.push_back(variant(technique, 1024));
-    }
-    for (const char* technique : {"std+pcf", "std+ppcf"}) {
+    for (const auto& technique : present({"std+pcf", "std+ppcf"}, registry)) {
         Variant made = variant(technique, 1024);
         made.shadow.qualityMode = true;
-        made.label = std::string{technique} + " quality";
+        made.label = technique + " quality";
         chapter.variants.push_back(std::move(made));
     }
     return chapter;
