@@ -44,6 +44,11 @@ protected:
         const double u = std::clamp(t, -1.0, 1.0);
         return 0.5 + (u * std::sqrt(1.0 - u * u) + std::asin(u)) / std::numbers::pi;
     }
+    /// How far the edge is beside the sun's middle, seen from a place, in radii of the sun.
+    static double besideSun(double place, double angle) {
+        return std::sin(std::atan2(height, place - edge) - std::numbers::pi / 4.0) /
+               std::sin(angle);
+    }
     /// From half a metre beside the slab's own edge to where nothing changes any more.
     /// @param off  from the formula, at most
     /// @param step  more than the formula's from a pixel to the next, at most: two steps of a byte,
@@ -66,11 +71,7 @@ protected:
 TEST_P(SoftGLTest, TheSunsPenumbraIsAsWideAsItsDiskAndWithoutBands) {
     const double angle = 2.0 * std::numbers::pi / 180.0;
     const auto found = row(std::string{GetParam()} + "+ppcf", angle);
-    expect(found, [&](double x) {
-        // How far the edge is beside the sun's middle, seen from there.
-        const double beside = std::atan2(height, x - edge) - std::numbers::pi / 4.0;
-        return shareOfDisk(-std::sin(beside) / std::sin(angle));
-    });
+    expect(found, [&](double x) { return shareOfDisk(-besideSun(x, angle)); });
 }
 
 TEST_P(SoftGLTest, WhatIsLowInAWidePenumbraHidesNoMoreThanItsOwn) {
@@ -81,8 +82,7 @@ TEST_P(SoftGLTest, WhatIsLowInAWidePenumbraHidesNoMoreThanItsOwn) {
     for (std::size_t x = 0; x < found.size(); ++x) {
         const double place = placeOf(x);
         if (place < -2.5 || place > 4.0) continue;
-        const double beside = std::atan2(height, place - edge) - std::numbers::pi / 4.0;
-        EXPECT_NEAR(found[x], shareOfDisk(-std::sin(beside) / std::sin(angle)), 0.06)
+        EXPECT_NEAR(found[x], shareOfDisk(-besideSun(place, angle)), 0.06)
             << "at " << place << " m";
     }
 }
@@ -98,9 +98,8 @@ TEST_P(SoftGLTest, WhatIsAtTwoHeightsHidesWhatEitherHides) {
     for (std::size_t x = 0; x < found.size(); ++x) {
         const double place = placeOf(x);
         if (place < -2.5 || place > 4.0) continue;
-        const double high = std::atan2(height, place - edge) - std::numbers::pi / 4.0;
         // What neither hides, in strips of the disk.
-        const double least = std::clamp(std::sin(high) / std::sin(angle), -1.0, 1.0);
+        const double least = std::clamp(besideSun(place, angle), -1.0, 1.0);
         // A map knows nothing of the board behind the slab; and what of the slab is at the rim
         // alone may be missed, where something else was found.
         if (least > -0.25 || (least > -0.999 && least < -0.65)) continue;
@@ -148,10 +147,7 @@ class RaySoftGLTest : public SoftGLTest {};
 
 TEST_F(RaySoftGLTest, TheSunsPenumbraIsAsWideAsItsDiskAndWithoutBands) {
     const double angle = 2.0 * std::numbers::pi / 180.0;
-    const auto formula = [&](double x) {
-        const double beside = std::atan2(height, x - edge) - std::numbers::pi / 4.0;
-        return shareOfDisk(-std::sin(beside) / std::sin(angle));
-    };
+    const auto formula = [&](double x) { return shareOfDisk(-besideSun(x, angle)); };
     // 64 rays know a share no better than their places do (Sunflower's test), in steps of a ray.
     expect(row("ray", angle), formula, 0.05, 3.0 / 64.0);
 }

@@ -38,6 +38,18 @@ protected:
         add(paint(below, glass).node,
             quad({-3.0F, 0.5F, 4.0F}, {6.0F, 0.0F, 0.0F}, {0.0F, 2.0F, 0.0F}));
     }
+    struct Lights {
+        scene::NodeWith<scene::DirectionalLight> sun;
+        scene::NodeWith<scene::SpotLight> spot;
+    };
+    /// The plaza, and what lights it.
+    Lights litPlaza() {
+        const auto sun = light<scene::DirectionalLight>(root, {-2.0, 3.0, 1.0}, {0.0, 0.0, 0.0});
+        const auto spot = light<scene::SpotLight>(sun.node, {3.0, 7.0, 4.0}, {0.0, 0.0, 0.0});
+        edit(sun.core)->intensity = 0.5F;
+        plaza(spot.node);
+        return {sun, spot};
+    }
     const scene::GradientBackground& gradient() {
         const auto& made = app.create<scene::GradientBackground>();
         edit(made)->stops.assign({math::vec4{0.1F, 0.1F, 0.3F, 0.0F},
@@ -114,17 +126,16 @@ protected:
         std::sort(all.begin(), all.end());
         return static_cast<std::size_t>(std::unique(all.begin(), all.end()) - all.begin());
     }
+    static void expectShades(const Both& both) {
+        expectEqual(both);
+        EXPECT_GT(colors(both.whole), 500U);
+    }
 };
 
 TEST_F(TileGLTest, FourTilesEqualTheWholeWithShadowsInSeveralPages) {
-    const auto sun = light<scene::DirectionalLight>(root, {-2.0, 3.0, 1.0}, {0.0, 0.0, 0.0});
-    const auto spot = light<scene::SpotLight>(sun.node, {3.0, 7.0, 4.0}, {0.0, 0.0, 0.0});
-    edit(sun.core)->intensity = 0.5F;
-    plaza(spot.node);
-    const auto both = render(perspectiveView({4.0, 5.0, 9.0}, {0.0, 0.5, 0.0}), 2, 2, {128, 128},
-                             gradient(), 2048);
-    expectEqual(both);
-    EXPECT_GT(colors(both.whole), 500U);
+    litPlaza();
+    expectShades(render(perspectiveView({4.0, 5.0, 9.0}, {0.0, 0.5, 0.0}), 2, 2, {128, 128},
+                        gradient(), 2048));
 }
 
 TEST_F(TileGLTest, SixTilesOfAnOffAxisScreenInStereo) {
@@ -157,10 +168,7 @@ class EveryTechniqueTileGLTest : public TileGLTest, public testing::WithParamInt
 protected:
     EveryTechniqueTileGLTest() {
         technique = GetParam().word();
-        const auto sun = light<scene::DirectionalLight>(root, {-2.0, 3.0, 1.0}, {0.0, 0.0, 0.0});
-        const auto spot = light<scene::SpotLight>(sun.node, {3.0, 7.0, 4.0}, {0.0, 0.0, 0.0});
-        edit(sun.core)->intensity = 0.5F;
-        plaza(spot.node);
+        litPlaza();
     }
     /// One face of a room with a user in it.
     const scene::Camera& face(const math::dvec3& lowerLeft, const math::dvec3& lowerRight,
@@ -185,10 +193,8 @@ protected:
 };
 
 TEST_P(EveryTechniqueTileGLTest, FourTilesEqualTheWhole) {
-    const auto both = render(perspectiveView({4.0, 5.0, 9.0}, {0.0, 0.5, 0.0}), 2, 2, {128, 128},
-                             gradient(), 1024);
-    expectEqual(both);
-    EXPECT_GT(colors(both.whole), 500U);
+    expectShades(render(perspectiveView({4.0, 5.0, 9.0}, {0.0, 0.5, 0.0}), 2, 2, {128, 128},
+                        gradient(), 1024));
 }
 
 TEST_P(EveryTechniqueTileGLTest, FourTilesInARowEqualTheWhole) {
@@ -224,32 +230,19 @@ INSTANTIATE_TEST_SUITE_P(All, EveryTechniqueTileGLTest, testing::ValuesIn(techni
 TEST_F(TileGLTest, WideKernelsOnTheScreenGoOnInTheNextTile) {
     technique = "lispsm+gauss";
     softness = 0.8;
-    const auto sun = light<scene::DirectionalLight>(root, {-2.0, 3.0, 1.0}, {0.0, 0.0, 0.0});
-    const auto spot = light<scene::SpotLight>(sun.node, {3.0, 7.0, 4.0}, {0.0, 0.0, 0.0});
-    edit(sun.core)->intensity = 0.5F;
-    plaza(spot.node);
-    const auto both =
-        render(perspectiveView({4.0, 3.0, 9.0}, {0.0, 0.5, 0.0}), 3, 3, {85, 51}, gradient(), 1024);
-    expectEqual(both);
-    EXPECT_GT(colors(both.whole), 500U);
+    litPlaza();
+    expectShades(render(perspectiveView({4.0, 3.0, 9.0}, {0.0, 0.5, 0.0}), 3, 3, {85, 51},
+                        gradient(), 1024));
 }
 
 // What is traced of a pixel depends on its neighbours: those in the next tile, too.
 TEST_F(TileGLTest, TracedPenumbraeGoOnInTheNextTile) {
     technique = "ray";
-    const auto sun = light<scene::DirectionalLight>(root, {-2.0, 3.0, 1.0}, {0.0, 0.0, 0.0});
-    const auto spot = light<scene::SpotLight>(sun.node, {3.0, 7.0, 4.0}, {0.0, 0.0, 0.0});
-    {
-        auto e = edit(sun.core);
-        e->intensity = 0.5F;
-        e->angle = 0.05F;
-    }
+    const auto [sun, spot] = litPlaza();
+    edit(sun.core)->angle = 0.05F;
     edit(spot.core)->radius = 0.5F;
-    plaza(spot.node);
-    const auto both =
-        render(perspectiveView({4.0, 3.0, 9.0}, {0.0, 0.5, 0.0}), 8, 8, {32, 32}, gradient(), 16);
-    expectEqual(both);
-    EXPECT_GT(colors(both.whole), 500U);
+    expectShades(
+        render(perspectiveView({4.0, 3.0, 9.0}, {0.0, 0.5, 0.0}), 8, 8, {32, 32}, gradient(), 16));
 }
 
 TEST_F(TileGLTest, TilesWithMultisampling) {

@@ -49,7 +49,7 @@ TEST_F(LookupReachTest, WhatStandsBesideTheRaysDoesNotCount) {
 }
 
 TEST_F(LookupReachTest, OfALargeBoxThePartBetweenLightAndReceivers) {
-    // A roof that leaves the rays at a height of 4 m, but for the light's radius.
+    // A block that the rays pass at a height of 3.4 m, but for the light's radius.
     expectReach(reach({box({3.3, 0.0, -50.0}, {50.0, 9.0, 50.0})}), 10.0 * (3.3 - 0.56) / 5.0);
 }
 
